@@ -30,7 +30,7 @@ from vectorplot.geometry.budget import USUAL, Budget, in_turn, mapped, unresolve
 from vectorplot.geometry.polygon_cuts import Crossings, Parts, crossings_of, parts_of
 from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, LineElements, joined
 from vectorplot.geometry.records import IN_COLUMNS
-from vectorplot.geometry.regions import cells_of, corners_of, polygons_of, unions, without_holes, without_splinters
+from vectorplot.geometry.regions import WIDTH_KEPT, cells_of, corners_of, polygons_of, unions, without_holes, without_splinters
 from vectorplot.scene.item import Item
 from vectorplot.scene.light import Light
 from vectorplot.scene.scene import Scene
@@ -175,8 +175,12 @@ def _arranged(view: View, shadows: Shadows) -> Shadows:
 def _cells(region: Any, on: Ints, light: Ints, tolerance: float) -> tuple[Any, Ints, Ints]:
     """Regions on faces on (r,), ascending, that lack one light each, as cells: polygons (k,), their faces, and the
     lights that they lack; one region is its own cell."""
+    import shapely
+
     one = (np.bincount(on) == 1)[on]
     parts, of = without_splinters(region[one], tolerance)
+    # Where the shadow of one thing ends and that of the next begins, the border goes straight on.
+    parts = shapely.simplify(parts, WIDTH_KEPT * tolerance)
     several = np.flatnonzero(~one)
     if not len(several):
         return parts, on[one][of], light[one][of]
