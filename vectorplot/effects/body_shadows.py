@@ -367,16 +367,23 @@ class Depths:
 
 
 def lit_bodies(
-    view: View, planes: FacePlanes, system: LightSystem, facing: Ints, items: Bools, off: Floats, receivers: Ints
+    view: View,
+    planes: FacePlanes,
+    system: LightSystem,
+    facing: Ints,
+    items: Bools,
+    sides: Ints,
+    off: Floats,
+    receivers: Ints,
 ) -> LitBodies:
-    """The bodies among items (i,) for a light.
+    """The bodies among items (i,) for a light; sides (i,): as of body_sides.
 
     off (i,): how far the faces of an item may be off the surface that they stand for: so far the outline may be off its
     hull. The corners of convex bodies are on them, and so is the hull. receivers (r,): the faces that shadows may fall
     on; bodies beside which none of another item is among these need no region.
     Source: Glaeser, section 6.3, figure 5 (convex bodies and their outlines).
     """
-    _, turned = turned_to_light(view, planes, system, facing)
+    _, turned = turned_to_light(view, system, facing, sides)
     face = np.flatnonzero(turned & items[view.face_item])
     face = face[narrow(view, system, face)]
     item, body = np.unique(view.face_item[face], return_inverse=True)
