@@ -92,11 +92,11 @@ class ShadedCharts:
         """What the lights give to points of charts."""
         return point_shades(self.view, self.items, self.lights, points.T, normals.T, self.item[chart])
 
-    def levels(self, chart: Ints, x: Floats, y: Floats, lacking: Ints) -> Floats:
-        """(m,) the shades of places that lack lights (m,), as of shadow_shades, in bands."""
+    def levels(self, chart: Ints, place: Floats, lacking: Ints) -> Floats:
+        """(m,) the shades of places (d,m) that lack lights (m,), as of shadow_shades, in bands."""
 
         def shade(some: slice) -> Floats:
-            found = self.shares(chart[some], *self.charts.at(chart[some], x[some], y[some]))
+            found = self.shares(chart[some], *self.charts.at(chart[some], *place[:, some]))
             if not lacking[some].any():
                 return found.total
             dark = ((lacking[some][None] >> np.arange(len(found.shares))[:, None]) & 1).astype(np.bool_)
@@ -105,19 +105,19 @@ class ShadedCharts:
 
         return _in_slices(shade, len(chart)) * self.steps[chart]
 
-    def cosines(self, number: int) -> Callable[[Ints, Floats, Floats], Floats]:
+    def cosines(self, number: int) -> Callable[[Ints, Floats], Floats]:
         """(m,) at places those of the angles between the normals and the way to a light."""
         source = homogeneous_light(self.lights[number])
 
-        def cosine(chart: Ints, x: Floats, y: Floats) -> Floats:
-            points, normals = self.charts.at(chart, x, y)
+        def cosine(chart: Ints, place: Floats) -> Floats:
+            points, normals = self.charts.at(chart, *place)
             return dot(normals, towards(points.T, source).T)
 
         return cosine
 
-    def margins(self, margin: Margin) -> Callable[[Ints, Floats, Floats], Floats]:
+    def margins(self, margin: Margin) -> Callable[[Ints, Floats], Floats]:
         """(m,) at places what a margin is there."""
-        return lambda chart, x, y: margin(chart, self.charts.at(chart, x, y)[0])
+        return lambda chart, place: margin(chart, self.charts.at(chart, *place)[0])
 
 
 def _in_slices(function: Callable[[slice], Floats], count: int) -> Floats:
@@ -154,29 +154,35 @@ HIGHLIGHT = 1.2
 
 @dataclass(frozen=True, eq=False)
 class ChartMesh:
-    """Triangles (t,3) of nodes on charts: chart, x and y (n,), and whether sides between nodes, where they are borders,
-    are covered by what is painted later."""
+    """Triangles (t,3) of nodes on charts: chart (n,), place (d,n) as of `Places`, and covered (n,): whether sides
+    between nodes, where they are borders, are covered by what is painted later."""
 
     chart: Ints
-    x: Floats
-    y: Floats
+    place: Floats
     covered: Bools
     triangles: Ints
 
+    def __len__(self) -> int:
+        return len(self.chart)
+
+    def between(self, one: Ints, other: Ints, share: Floats) -> Floats:
+        """(d,m) places between two nodes each."""
+        start = self.place[:, one]
+        return np.asarray(start + share * (self.place[:, other] - start))
+
     def with_nodes(self, one: Ints, other: Ints, share: Floats, triangles: Ints) -> ChartMesh:
         """The same with nodes between those that there are, and other triangles."""
-        between = (row[one] + share * (row[other] - row[one]) for row in (self.x, self.y))
-        x, y = (np.concatenate([row, more]) for row, more in zip((self.x, self.y), between, strict=True))
+        place = np.concatenate([self.place, self.between(one, other, share)], axis=1)
         covered = np.concatenate([self.covered, self.covered[one] & self.covered[other]])
-        return ChartMesh(np.concatenate([self.chart, self.chart[one]]), x, y, covered, triangles)
+        return ChartMesh(np.concatenate([self.chart, self.chart[one]]), place, covered, triangles)
 
     def sides(self, triangles: Ints) -> tuple[Ints, Ints, Ints]:
         """The two nodes of every side of some triangles (k,3), each side once, and (k,3) the numbers of theirs, by the
         corners at which they begin."""
         ends = np.stack([triangles, triangles[:, [1, 2, 0]]])
-        key = ends.min(axis=0) * len(self.x) + ends.max(axis=0)
+        key = ends.min(axis=0) * len(self) + ends.max(axis=0)
         found, number = np.unique(key, return_inverse=True)
-        return *np.divmod(found, max(len(self.x), 1)), number.reshape(-1, 3)
+        return *np.divmod(found, max(len(self), 1)), number.reshape(-1, 3)
 
 
 def _first_mesh(charts: Charts) -> ChartMesh:
@@ -194,11 +200,11 @@ def _first_mesh(charts: Charts) -> ChartMesh:
         cells = np.concatenate([one, two])
         nodes = x.size
         triangles = (cells + nodes * np.arange(len(own))[:, None, None]).reshape(-1, 3)
-        parts.append((np.repeat(own, nodes), np.tile(x.ravel(), len(own)), np.tile(y.ravel(), len(own)), triangles))
+        parts.append((np.repeat(own, nodes), np.tile(np.stack([x.ravel(), y.ravel()]), len(own)), triangles))
     first = ragged.starts([len(part[0]) for part in parts])
-    triangles = np.concatenate([part[3] + start for part, start in zip(parts, first, strict=True)])
-    chart, x, y = (np.concatenate([part[k] for part in parts]) for k in range(3))
-    return ChartMesh(chart, x, y, np.zeros(len(chart), dtype=np.bool_), triangles)
+    triangles = np.concatenate([part[2] + start for part, start in zip(parts, first, strict=True)])
+    chart, place = (np.concatenate([part[k] for part in parts], axis=-1) for k in range(2))
+    return ChartMesh(chart, place, np.zeros(len(chart), dtype=np.bool_), triangles)
 
 
 @dataclass(frozen=True, eq=False)
@@ -221,14 +227,14 @@ class _Samples:
         return _Samples(*(np.concatenate(pair, axis=-1) for pair in pairs))
 
 
-def _samples(shaded: ShadedCharts, chart: Ints, x: Floats, y: Floats) -> _Samples:
+def _samples(shaded: ShadedCharts, chart: Ints, place: Floats) -> _Samples:
     shiny = bool(shaded.sharpness.any())
     margins = [*shaded.cuts, *(margin for _, margin in shaded.shadows)]
     count = len(shaded.lights)
 
     def rows(some: slice) -> Floats:
         own = chart[some]
-        points, normals = shaded.charts.at(own, x[some], y[some])
+        points, normals = shaded.charts.at(own, *place[:, some])
         level = shaded.shares(own, points, normals).total * shaded.steps[own]
         to_eye = towards(points.T, view_eye(shaded.view)).T if shiny else points
         alpha, highlight = [], []
@@ -251,15 +257,14 @@ def _refined(shaded: ShadedCharts, mesh: ChartMesh, tolerance_mm: float) -> tupl
     """The mesh with triangles halved until everything is nearly linear along their sides; and how far sides along
     outlines are off these on the page, at most, in their middles."""
     off_mm = 0.0
-    known = _samples(shaded, mesh.chart, mesh.x, mesh.y)
+    known = _samples(shaded, mesh.chart, mesh.place)
     active, done = mesh.triangles, []
     for _ in range(ROUNDS):
         one, other, number = mesh.sides(active)
         chart = mesh.chart[one]
-        x, y = (0.5 * (row[one] + row[other]) for row in (mesh.x, mesh.y))
-        between = _samples(shaded, chart, x, y)
-        border = (np.abs(x) == 1.0) & (mesh.x[one] == mesh.x[other])
-        border |= (np.abs(y) == 1.0) & (mesh.y[one] == mesh.y[other])
+        middle = mesh.between(one, other, np.full(len(one), 0.5))
+        between = _samples(shaded, chart, middle)
+        border = ((np.abs(middle) == 1.0) & (mesh.place[:, one] == mesh.place[:, other])).any(axis=0)
         ends = known.take(one), known.take(other)
         bad = _bent(shaded, chart, border, ends, between, tolerance_mm)
         off_mm = max(off_mm, float(_beside(*ends, between)[border & ~bad].max(initial=0.0)))
@@ -267,7 +272,7 @@ def _refined(shaded: ShadedCharts, mesh: ChartMesh, tolerance_mm: float) -> tupl
             break
         cut = np.flatnonzero(bad)
         fresh = np.full(len(bad), -1, dtype=np.intp)
-        fresh[cut] = len(mesh.x) + np.arange(len(cut))
+        fresh[cut] = len(mesh) + np.arange(len(cut))
         split = bad[number].any(axis=1)
         done.append(active[~split])
         active = _halved(active[split], bad[number[split]], fresh[number[split]])
@@ -369,9 +374,9 @@ def _root(function: Callable[[Ints, Floats], Floats], start: Floats, end: Floats
     return found
 
 
-def _cut(mesh: ChartMesh, function: Callable[[Ints, Floats, Floats], Floats]) -> tuple[ChartMesh, Floats]:
+def _cut(mesh: ChartMesh, function: Callable[[Ints, Floats], Floats]) -> tuple[ChartMesh, Floats]:
     """The mesh with triangles cut where a function of places is zero, and (t,) its sign on each of them."""
-    value = _in_slices(lambda some: function(mesh.chart[some], mesh.x[some], mesh.y[some]), len(mesh.x))
+    value = _in_slices(lambda some: function(mesh.chart[some], mesh.place[:, some]), len(mesh))
     value = np.where(np.abs(value) <= ROUNDING, 0.0, value)
     sign = np.sign(value).astype(np.intp)
     corner = sign[mesh.triangles]
@@ -382,13 +387,13 @@ def _cut(mesh: ChartMesh, function: Callable[[Ints, Floats, Floats], Floats]) ->
     start, end = one[crossed], other[crossed]
 
     def along(which: Ints, part: Floats) -> Floats:
-        a, b = start[which], end[which]
-        x, y = (row[a] + part * (row[b] - row[a]) for row in (mesh.x, mesh.y))
-        return _in_slices(lambda some: function(mesh.chart[a[some]], x[some], y[some]), len(x))
+        a = start[which]
+        place = mesh.between(a, end[which], part)
+        return _in_slices(lambda some: function(mesh.chart[a[some]], place[:, some]), len(a))
 
     share = _root(along, value[start], value[end], ROUNDING)
     fresh = np.full(len(one), -1, dtype=np.intp)
-    fresh[crossed] = len(mesh.x) + np.arange(len(start))
+    fresh[crossed] = len(mesh) + np.arange(len(start))
     middles = fresh[number]
     several = (middles >= 0).sum(axis=1) == 2
     # Turned so that the first corner lies alone on its side, or on the cut.
@@ -474,10 +479,10 @@ def _bands_of(shaded: ShadedCharts, tolerance_mm: float) -> tuple[ShadeBands, fl
     """The same of some charts."""
     mesh, off_mm = _refined(shaded, _first_mesh(shaded.charts), tolerance_mm)
     if shaded.cover is not None:
-        cover = shaded.cover(mesh.chart, shaded.charts.at(mesh.chart, mesh.x, mesh.y)[0])[mesh.triangles]
+        cover = shaded.cover(mesh.chart, shaded.charts.at(mesh.chart, *mesh.place)[0])[mesh.triangles]
         # What a convex thing hides is convex.
         seen = (cover[:, 0] < 0) | (cover != cover[:, :1]).any(axis=1)
-        covered = np.zeros(len(mesh.x), dtype=np.bool_)
+        covered = np.zeros(len(mesh), dtype=np.bool_)
         covered[mesh.triangles[~seen]] = True
         mesh = replace(mesh, covered=covered, triangles=mesh.triangles[seen])
     for cut in shaded.cuts:
@@ -487,33 +492,33 @@ def _bands_of(shaded: ShadedCharts, tolerance_mm: float) -> tuple[ShadeBands, fl
         mesh = _cut(mesh, shaded.cosines(number))[0]
     for _, margin in shaded.shadows:
         mesh = _cut(mesh, shaded.margins(margin))[0]
-    return _marched(shaded, mesh, _lacking(shaded, mesh), tolerance_mm), off_mm
+    return _marched(shaded, mesh, _lacking(shaded, mesh)), off_mm
 
 
 def _lacking(shaded: ShadedCharts, mesh: ChartMesh) -> Ints:
     """(t,) the lights that do not get to triangles which they shine on: bit k for light k."""
     found = np.zeros(len(mesh.triangles), dtype=np.intp)
     chart = mesh.chart[mesh.triangles[:, 0]]
-    x, y = (row[mesh.triangles].mean(axis=1) for row in (mesh.x, mesh.y))
+    place = mesh.place[:, mesh.triangles].mean(axis=2)
     for number, margin in shaded.shadows:
         sides = (shaded.margins(margin), shaded.cosines(number))
         in_shadow, lit = (
-            _in_slices(lambda some, side=side: side(chart[some], x[some], y[some]), len(chart))  # type: ignore[misc]
+            _in_slices(lambda some, side=side: side(chart[some], place[:, some]), len(chart))  # type: ignore[misc]
             for side in sides
         )
         found |= np.where((in_shadow < 0.0) & (lit > 0.0), 1 << number, 0)
     return found
 
 
-def _marched(shaded: ShadedCharts, mesh: ChartMesh, lacking: Ints, tolerance_mm: float) -> ShadeBands:
+def _marched(shaded: ShadedCharts, mesh: ChartMesh, lacking: Ints) -> ShadeBands:
     combinations = np.unique(np.append(lacking, 0))
     combinations = combinations[np.argsort(np.bitwise_count(combinations), kind="stable")]
     jobs, nodes, lacks, covered = [], [], [], []
-    within = (np.abs(mesh.x) < 1.0) & (np.abs(mesh.y) < 1.0)
+    within = (np.abs(mesh.place) < 1.0).all(axis=0)
     count = 0
     for some in combinations.tolist():
         # Those in more shadows lie on these: of them only what is next is needed.
-        beside = np.zeros(len(mesh.x), dtype=np.bool_)
+        beside = np.zeros(len(mesh), dtype=np.bool_)
         beside[mesh.triangles[lacking == some]] = True
         triangles = mesh.triangles[((lacking & some) == some) & beside[mesh.triangles].any(axis=1)]
         own, place = np.unique(triangles, return_inverse=True)
@@ -523,15 +528,15 @@ def _marched(shaded: ShadedCharts, mesh: ChartMesh, lacking: Ints, tolerance_mm:
         lacks.append(np.full(len(own), some, dtype=np.intp))
         count += len(own)
     node, lack = np.concatenate(nodes), np.concatenate(lacks)
-    job_mesh = ChartMesh(mesh.chart[node], mesh.x[node], mesh.y[node], np.concatenate(covered), np.concatenate(jobs))
+    job_mesh = ChartMesh(mesh.chart[node], mesh.place[:, node], np.concatenate(covered), np.concatenate(jobs))
     job_mesh, source = _without_pinches(job_mesh)
-    return _Marching(shaded, job_mesh, lack[source], tolerance_mm).bands()
+    return _Marching(shaded, job_mesh, lack[source]).bands()
 
 
 def _without_pinches(mesh: ChartMesh) -> tuple[ChartMesh, Ints]:
     """The mesh with a node of its own for each fan of triangles that meet in one, and (n,) the old number of each node:
     every node then has one side of the border before it, and one behind it, or none."""
-    triangles, count = mesh.triangles, len(mesh.x)
+    triangles, count = mesh.triangles, len(mesh)
     _, _, number = mesh.sides(triangles)
     once = np.bincount(number.ravel())[number] == 1
     pinched = np.bincount(triangles[once], minlength=count) > 1
@@ -559,8 +564,7 @@ def _without_pinches(mesh: ChartMesh) -> tuple[ChartMesh, Ints]:
     node = node.copy()
     node[corner] = count + of.reshape(-1)
     source = np.concatenate([np.arange(count), triangles.ravel()[fans]])
-    own = replace(mesh, x=mesh.x[source], y=mesh.y[source], triangles=node.reshape(-1, 3))
-    return replace(own, chart=mesh.chart[source], covered=mesh.covered[source]), source
+    return ChartMesh(mesh.chart[source], mesh.place[:, source], mesh.covered[source], node.reshape(-1, 3)), source
 
 
 @dataclass(frozen=True, eq=False)
@@ -570,13 +574,11 @@ class _Marching:
     shaded: ShadedCharts
     mesh: ChartMesh
     lacking: Ints
-    tolerance_mm: float
 
     @cached_property
     def level(self) -> Floats:
         """(n,) the shades of nodes in bands."""
-        mesh = self.mesh
-        return self.shaded.levels(mesh.chart, mesh.x, mesh.y, self.lacking)
+        return self.shaded.levels(self.mesh.chart, self.mesh.place, self.lacking)
 
     @cached_property
     def sides(self) -> tuple[Ints, Ints, Ints]:
@@ -706,14 +708,14 @@ class _Marching:
         start, end = one[side], other[side]
 
         def along(which: Ints, part: Floats) -> Floats:
-            a, b = start[which], end[which]
-            x, y = (row[a] + part * (row[b] - row[a]) for row in (mesh.x, mesh.y))
-            return self.shaded.levels(mesh.chart[a], x, y, self.lacking[a]) - level[which]
+            a = start[which]
+            place = mesh.between(a, end[which], part)
+            return self.shaded.levels(mesh.chart[a], place, self.lacking[a]) - level[which]
 
         share = _root(along, self.level[start] - level, self.level[end] - level, EXACT_LEVEL)
         every = mesh.with_nodes(start, end, share, mesh.triangles)
         return _in_slices(
-            lambda some: self.shaded.charts.at(every.chart[some], every.x[some], every.y[some])[0], len(every.x)
+            lambda some: self.shaded.charts.at(every.chart[some], *every.place[:, some])[0], len(every)
         )
 
     def _polygons(
