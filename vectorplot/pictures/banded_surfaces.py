@@ -13,6 +13,7 @@ from vectorplot.drawing.painted_fills import Overlay
 from vectorplot.effects.decals import Decals, Laid, laid
 from vectorplot.effects.scene_decals import shown_decals
 from vectorplot.geometry import ragged
+from vectorplot.geometry.mesh import TRIANGLE
 from vectorplot.geometry.weld import distinct_points
 from vectorplot.scene.placement import Placement
 from vectorplot.scene.view import View
@@ -138,12 +139,11 @@ def _net(
     low, high = (np.searchsorted(parts.piece, facet, side=side) for side in ("left", "right"))
     part, on_part = ragged.ranges(low, high - low), np.repeat(chart, high - low)
     lacking = decals.lights_lacking[parts.decal]
-    owner = ragged.owner(np.diff(parts.offsets))
-    grid = np.rint(placement.on_page(parts.points[:2]) / ONE_PLACE_MM)
-    node = distinct_points(np.column_stack([grid, lacking[owner]]))[1]
-    points = view_points(view, parts.points)
+    flat, offsets, node = _shadow_corners(parts, lacking, placement)
+    owner = ragged.owner(np.diff(offsets))
+    points = view_points(view, flat)
     places = np.concatenate([points, shading_normals(view, lighting, points, decals.face[parts.decal[owner]])])
-    dim, source, of_dim = _mesh(parts.points, parts.offsets, places, node, part, on_part)
+    dim, source, of_dim = _mesh(flat, offsets, places, node, part, on_part)
     triangles = np.concatenate([bright.triangles, dim.triangles + len(bright)])
     mesh = ChartMesh(
         np.concatenate([bright.chart, dim.chart]),
@@ -172,6 +172,26 @@ def _nodes(points: Floats, normals: Floats) -> Ints:
     return found
 
 
+def _shadow_corners(parts: Laid, lacking: Ints, placement: Placement) -> tuple[Floats, Ints, Ints]:
+    """Corners (3,c) of the image and offsets of parts of decals that lack lights (n,), and numbers (c,) of corners,
+    alike for those in one place for want of the same lights; without corners at which no part turns, and without ways
+    that lead there and back again."""
+    page, offsets = placement.on_page(parts.points[:2]), parts.offsets
+    rows = np.column_stack([np.rint(page / ONE_PLACE_MM), lacking[ragged.owner(np.diff(offsets))]])
+    node, corner = distinct_points(rows)[1], np.arange(len(page))
+    while True:
+        own, before, after = node[corner], ragged.preceding(offsets), ragged.following(offsets)
+        start, end = page[corner[before]], page[corner[after]]
+        way, arm = (end - start).T, (page[corner] - start).T
+        turns = np.abs(way[0] * arm[1] - way[1] * arm[0]) > ONE_PLACE_MM * np.hypot(*way)
+        turns |= (np.diff(offsets) == TRIANGLE)[ragged.owner(np.diff(offsets))]
+        back = (own == own[before]) | (own[before] == own[after])
+        kept = (np.bincount(own, turns & ~back)[own] > 0.0) & ~back
+        if kept.all():
+            return parts.points[:, corner], offsets, own
+        corner, offsets = corner[kept], ragged.offsets(kept)[offsets]
+
+
 def _with_neighbours(owner: Ints, node: Ints, layer: Ints) -> tuple[Ints, Ints]:
     """Facets, and the layers that they are painted on: all of them on their own (n,), and on those of facets behind
     them with which they have corners in common. owner, node (c,) of corners."""
@@ -194,16 +214,16 @@ def _apart_from_farther(owner: Ints, node: Ints, layer: Ints) -> Bools:
 
 def _dark(faces: ImageFaces, parts: Laid) -> Bools:
     """(n,) the facets that parts of decals, which do not overlap, cover."""
-    whole, covered = (_areas(shapes.points, shapes.offsets) for shapes in (faces, parts))
+    whole, covered = (np.abs(_signed_areas(shapes.points, shapes.offsets)) for shapes in (faces, parts))
     return np.bincount(parts.piece, covered, minlength=len(whole)) > DARK * whole
 
 
-def _areas(points: Floats, offsets: Ints) -> Floats:
-    """(n,) the areas of polygons of the image."""
+def _signed_areas(points: Floats, offsets: Ints) -> Floats:
+    """(n,) the areas of polygons of the image, negative for those wound clockwise."""
     after = ragged.following(offsets)
     first = points[:2, np.repeat(offsets[:-1], np.diff(offsets))]
     (x, y), (u, v) = points[:2] - first, points[:2, after] - first
-    return np.abs(np.bincount(ragged.owner(np.diff(offsets)), x * v - y * u, minlength=len(offsets) - 1)) / 2.0
+    return np.bincount(ragged.owner(np.diff(offsets)), x * v - y * u, minlength=len(offsets) - 1) / 2.0
 
 
 def _beside_bright(node: Ints, offsets: Ints, facet: Ints, chart: Ints, dark: Bools) -> Bools:
@@ -227,9 +247,8 @@ def _mesh(
     keys = chart[owner] * (int(node.max(initial=0)) + 1) + node[corner]
     _, first, number = np.unique(keys, return_index=True, return_inverse=True)
     fans, of = ragged.fans(ends)
-    a, b, c = points[:2, corner[fans.T]].transpose(1, 0, 2)
-    (x, y), (u, v) = b - a, c - a
-    fans = np.where((x * v < y * u)[:, None], fans[:, ::-1], fans)
+    backwards = _signed_areas(points, offsets)[which] < 0.0
+    fans = np.where(backwards[of][:, None], fans[:, ::-1], fans)
     triangles = number[fans]
     full = (triangles != np.roll(triangles, 1, axis=1)).all(axis=1)
     fans, triangles, of = fans[full], triangles[full], of[full]
