@@ -367,15 +367,15 @@ class Depths:
 
 
 def lit_bodies(
-    view: View, planes: FacePlanes, system: LightSystem, facing: Ints, items: Bools, off: Floats
+    view: View, planes: FacePlanes, system: LightSystem, facing: Ints, items: Bools, off: Floats, sides: Ints
 ) -> LitBodies:
     """The bodies among items (i,) for a light.
 
     off (i,): how far the faces of an item may be off the surface that they stand for: so far the outline may be off its
-    hull. The corners of convex bodies are on them, and so is the hull.
+    hull. The corners of convex bodies are on them, and so is the hull. sides (i,): as of body_sides.
     Source: Glaeser, section 6.3, figure 5 (convex bodies and their outlines).
     """
-    _, turned = turned_to_light(view, planes, system, facing)
+    _, turned = turned_to_light(view, sides, system, facing)
     face = np.flatnonzero(turned & items[view.face_item])
     face = face[narrow(view, system, face)]
     item, body = np.unique(view.face_item[face], return_inverse=True)

@@ -18,7 +18,6 @@ from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, LineElements
 from vectorplot.geometry.records import IN_COLUMNS
 from vectorplot.scene.light import Light
 from vectorplot.scene.view import View
-from vectorplot.visibility.painter.unseen import body_sides
 from vectorplot.visibility.projected_faces import newell
 
 # A view from a light: which faces are lit, and what lies before what on the rays of light.
@@ -231,9 +230,9 @@ class Casters:
 
 
 def shadow_casters(
-    view: View, planes: FacePlanes, system: LightSystem, facing: Ints, items: Bools, solids: Bools
+    view: View, planes: FacePlanes, system: LightSystem, facing: Ints, items: Bools, solids: Bools, sides: Ints
 ) -> Casters:
-    """What the items (i,) that cast shadows, solids (i,) among them, put before a light.
+    """What the items (i,) that cast shadows, solids (i,) among them, put before a light; sides (i,) as of body_sides.
 
     A closed body that the light is outside of keeps it away with the faces that it turns to the light; any other item
     with all its faces. Edge cases: faces that the light grazes keep nothing away.
@@ -243,7 +242,7 @@ def shadow_casters(
     whole = items & solids & lit
     of_solid = np.flatnonzero(whole[view.face_item] & (facing > 0))
     loose = items & ~whole
-    one_sided, turned = turned_to_light(view, planes, system, facing)
+    one_sided, turned = turned_to_light(view, sides, system, facing)
     alone = np.flatnonzero(loose[view.face_item] & (facing != 0) & (~one_sided[view.face_item] | turned))
     item, owner = np.unique(view.face_item[of_solid], return_inverse=True)
     face = np.concatenate([of_solid, alone])
@@ -252,9 +251,10 @@ def shadow_casters(
     return Casters(volumes, np.concatenate([item, view.face_item[alone]]), face, caster)
 
 
-def turned_to_light(view: View, planes: FacePlanes, system: LightSystem, facing: Ints) -> tuple[Bools, Bools]:
-    """(i,) closed items, see body_sides, that the light is outside of, and (f,) the faces that they turn to it."""
-    side = np.where(_near_light(view, system), 0, body_sides(view))
+def turned_to_light(view: View, sides: Ints, system: LightSystem, facing: Ints) -> tuple[Bools, Bools]:
+    """(i,) closed items, by their sides (i,), see body_sides, that the light is outside of, and (f,) the faces that they
+    turn to it."""
+    side = np.where(_near_light(view, system), 0, sides)
     return side != 0, np.asarray(facing * side[view.face_item] > 0)
 
 

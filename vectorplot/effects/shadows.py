@@ -324,14 +324,14 @@ def cast_within(
     solids = solid_items(replace(view, occludes=items), projected, most_faces=MOST_FACES)
     planes = FacePlanes.of(view)
     off = np.zeros(len(items)) if off is None else off
-    seen = drawn_faces(view, projected)
+    seen, sides = drawn_faces(view, projected), projected.sides
     seen = seen if receivers is None else seen[receivers[seen]]
     found, missing = [], [np.zeros((3, 0), dtype=np.intp)]
     for number, light in in_turn(enumerate(lights)):
         system = light_system(view, light)
         facing = system.facing(planes, view.tolerance)
         lit = seen[facing[seen] * projected.facing[seen] > 0]
-        bodies = lit_bodies(view, planes, system, facing, items & ~solids, off)
+        bodies = lit_bodies(view, planes, system, facing, items & ~solids, off, sides)
         bright = Receivers.of(view, lit)
         outlined, open_items, open_receivers = _of_outlines(view, system, bodies, bright, number)
         alone = items.copy()
@@ -344,7 +344,8 @@ def cast_within(
         parts = [joined_shadows([outlined, inside, beyond]).without_needless()]
         still = ~np.isin(bright.face, parts[0].face[parts[0].whole])
         for casters, on in ((alone, still), (open_items, still & open_receivers)):
-            dark = replace(shadow_casters(view, planes, system, facing, casters, solids), known=bodies.settle)
+            every = shadow_casters(view, planes, system, facing, casters, solids, sides)
+            dark = replace(every, known=bodies.settle)
             under = bright.take(np.flatnonzero(on))
             crowded = crowds(view, system, dark, under, pairs)
             missing.append(np.insert(crowded, 0, number, axis=0))

@@ -28,7 +28,7 @@ from vectorplot.shading.shade_bands import (
     mesh_bands,
     palette_reaches,
 )
-from vectorplot.shading.shaded_faces import item_colours, point_shades
+from vectorplot.shading.shaded_faces import item_colours
 from vectorplot.tolerances import LEAST_DIVISOR
 from vectorplot.visibility.painter.image_faces import ImageFaces, view_points
 

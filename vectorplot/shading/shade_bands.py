@@ -171,6 +171,7 @@ LOOSE, LOOSE_OF_BAND = 2.5, 0.5
 """Isophotes may be off by so many tolerances, and by such a part of the radius less the number of bands: where a band
 ends is seen far less than where a body does."""
 
+
 def palette_reaches(items: Sequence[Item], item: Ints) -> Floats:
     """(n,) how far the palettes of items reach from dark to bright, as a part of all that there is."""
     dark, bright = (item_colours(items, item, np.full(len(item), shade), COLOUR_MAP) for shade in (0.0, 1.0))
@@ -815,9 +816,7 @@ class _Marching:
 
         share = _root(along, self.level[start] - level, self.level[end] - level, EXACT_LEVEL)
         every = mesh.with_nodes(start, end, share, mesh.triangles)
-        return _in_slices(
-            lambda some: self.shaded.charts.at(every.chart[some], *every.place[:, some])[0], len(every)
-        )
+        return _in_slices(lambda some: self.shaded.charts.at(every.chart[some], *every.place[:, some])[0], len(every))
 
     def _polygons(
         self, points: Floats, page: Floats, position: Ints, offsets: Ints, key: Ints, upper: Bools
