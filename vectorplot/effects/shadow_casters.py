@@ -252,8 +252,8 @@ def shadow_casters(
 
 
 def turned_to_light(view: View, sides: Ints, system: LightSystem, facing: Ints) -> tuple[Bools, Bools]:
-    """(i,) closed items, by their sides (i,), see body_sides, that the light is outside of, and (f,) the faces that they
-    turn to it."""
+    """(i,) closed items, by their sides (i,), see body_sides, that the light is outside of, and (f,) the faces that
+    they turn to it."""
     side = np.where(_near_light(view, system), 0, sides)
     return side != 0, np.asarray(facing * side[view.face_item] > 0)
 

@@ -33,8 +33,9 @@ EVERYWHERE = np.float32(1e30)
 class ProjectedFaces:
     """Faces in the image: which side they show, and the box each one fills.
 
-    view: whose faces they are; facing: (f,) 1 for a face that shows its outside, -1 its inside, 0 edge-on: then it hides nothing; box: (4, f)
-    smallest and largest x, smallest and largest y in the image, rounded outwards; nearest: (f,) the smallest depth.
+    view: whose faces they are; facing: (f,) 1 for a face that shows its outside, -1 its inside, 0 edge-on: then it
+    hides nothing; box: (4, f) smallest and largest x, smallest and largest y in the image, rounded outwards; nearest:
+    (f,) the smallest depth.
     """
 
     view: View
