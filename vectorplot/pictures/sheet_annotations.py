@@ -295,8 +295,8 @@ def part_scenes(scene: object) -> tuple[Scene, ...]:
     Parameters
     ----------
     scene : Scene, path, Item, Mesh, surface, or several of these
-        See `io.scene_of`. Its items are the parts: those of one group are one part, and those of one shape whose names differ by a number
-        at their end are the same part.
+        See `io.scene_of`. Its items are the parts: those of one group are one part, and those of one shape whose names
+        differ by a number at their end are the same part.
 
     Returns
     -------
