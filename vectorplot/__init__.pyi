@@ -30,6 +30,7 @@ from .scene.page import Page
 from .scene.plots import graph, surface, tube
 from .scene.scene import Scene
 from .scene.surface_lines import Section, SurfaceLines
+from .scene.united import united
 from .shading.image import Image
 from .viewer.notebook import show
 from .words import LineKind
@@ -97,5 +98,6 @@ __all__ = [
     "technical_sheet",
     "tube",
     "turntable",
+    "united",
     "zero_manifold_of_f_uv",
 ]

@@ -378,6 +378,14 @@ UNITED_OF_EXTENT = 1e-12
 """Part of the largest coordinate that the meshes of a grid have on which regions are united where floating numbers do
 not lead to a union: a few thousand of their last digits."""
 
+UNITED_GRID_OF_ZERO = 2.0**-6
+"""Part of the distance that counts as zero that the meshes of the grid have on which faces of bodies are united: far
+finer than what is one point, so that what two planes make of a point is one however flat they meet."""
+
+SAME_POINT_OF_ZERO = 4.0
+"""Corners of a union of bodies so many times nearer than what counts as zero are one: each is off by up to that, in
+the plane it was found in."""
+
 
 # Lengths as parts of other lengths: of a chord, a cell, a stroke, a tolerance, a step.
 

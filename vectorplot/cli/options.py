@@ -65,7 +65,7 @@ if TYPE_CHECKING:
     from vectorplot.shading.image import Image
 
 
-# Options that cut what is shown, or move its parts apart.
+# Options that cut what is shown, move its parts apart, or make them one.
 
 
 def cut_text(text: str) -> str:
@@ -121,12 +121,13 @@ CUT_OPTIONS = (
         metavar="AXIS[,FACTOR]",
         help="Parts moved apart along x, y, z or X,Y,Z; z,1.5 is z.",
     ),
+    click.option("--union", is_flag=True, help="Solids that touch or overlap, and look alike, are one body."),
 )
 
 
 @dataclass(frozen=True)
 class CutOptions:
-    """The cuts that the user asked for, and how parts are moved apart."""
+    """The cuts that the user asked for, how parts are moved apart, and whether those that touch are one."""
 
     cut: tuple[str, ...] = ()
     cut_away: str = "gone"
@@ -134,6 +135,7 @@ class CutOptions:
     cut_spacing: float | None = None
     cut_angle: float = 45.0
     explode: tuple[Point] | tuple[Point, float] | None = None
+    union: bool = False
 
     @classmethod
     def of(cls, options: Mapping[str, Any]) -> CutOptions:
@@ -145,6 +147,10 @@ class CutOptions:
         from vectorplot.scene.cuts import Cut
         from vectorplot.scene.exploded import exploded, shown_apart
 
+        if self.union:
+            from vectorplot.scene.united import united
+
+            scene = united(scene)
         scene = shown_apart(scene) if self.explode is None else exploded(scene, *self.explode)
         spelled = partial(Cut.of, away=self.cut_away, colour=self.cut_colour)
         hatched = partial(spelled, spacing_mm=self.cut_spacing, angle_deg=self.cut_angle)

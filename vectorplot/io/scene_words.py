@@ -70,7 +70,7 @@ SCENE_WORDS = (
         "depth_cue",
     ),
     *("style", "pen", "dash", "explode"),
-    *("include", "assembly", "end"),
+    *("include", "assembly", "union", "end"),
     *(word for word in ANNOTATION_WORDS if word not in SLOT_TOO),
 )
 
