@@ -37,6 +37,7 @@ from vectorplot.cli.option_values import (
     point,
     said_or_none,
     style,
+    tiles,
     upwards,
 )
 from vectorplot.cli.picture import (
@@ -1033,6 +1034,21 @@ HALO = click.option(
     default=0.0,
     metavar="MM",
     help="Gap beside lines that lie in front.",
+)
+
+SHORTEST = click.option(
+    "--shortest",
+    "shortest_mm",
+    type=of_option("shortest_mm"),
+    metavar="MM",
+    help="Shorter strokes of lines are left out.  [default: none, of drawings those below 0.05 that are alone]",
+)
+
+TILES = click.option(
+    "--tiles",
+    type=tiles,
+    metavar="CxR",
+    help="Also the page in C x R parts, with registration marks, as OUT-ROW-COLUMN.",
 )
 
 LAYERS = click.option(

@@ -707,6 +707,7 @@ def technical_sheet(
     date: str = "",
     sheet: str = "1",
     crease_angle_deg: float = 25.0,
+    shortest_mm: float | None = None,
     progress: Callable[[str, float], None] | None = None,
     explain: Callable[[StageReport], None] | None = None,
 ) -> Drawing:
@@ -754,6 +755,8 @@ def technical_sheet(
         Letters in the title block.
     crease_angle_deg : float
         See draw.
+    shortest_mm : float, optional
+        See draw: of what shows the part in every view.
     progress, explain : callable, optional
         See draw, for every view.
 
@@ -841,6 +844,7 @@ def technical_sheet(
             pens=PENS,
             dashes=DASHES,
             crease_angle_deg=crease_angle_deg,
+            shortest_mm=shortest_mm,
             progress=progress,
             explain=explain,
         )

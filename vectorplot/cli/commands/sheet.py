@@ -18,6 +18,7 @@ from vectorplot.cli.options import (
     LANDSCAPE,
     OUT,
     QUIET,
+    SHORTEST,
     VIEW_WORDS,
     crease_angle_option,
     drawing_format,
@@ -85,6 +86,7 @@ def _name_of_mesh(path: str) -> str:
     click.option("--date", default="", metavar="TEXT", show_default=False, help="As it is to be written."),
     click.option("--sheet", metavar="TEXT", help="The number of the sheet, such as 1/2.  [default: 1, or 1/2 of two]"),
     crease_angle_option("Sharper edges are creases."),
+    SHORTEST,
     EXPLAIN,
     QUIET,
 )
