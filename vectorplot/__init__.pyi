@@ -10,6 +10,7 @@ from .features.zero_curves import zero_manifold_of_f_uv
 from .geometry.camera import Camera, Panorama
 from .geometry.mesh import Mesh
 from .geometry.polylines import Strokes
+from .pictures.development import development
 from .pictures.draw import draw
 from .pictures.film import Film, animate
 from .pictures.paint import paint
@@ -78,6 +79,7 @@ __all__ = [
     "centre_mark",
     "contact_sheet",
     "cut",
+    "development",
     "diameter",
     "dimension",
     "draw",

@@ -378,6 +378,17 @@ UNITED_OF_EXTENT = 1e-12
 """Part of the largest coordinate that the meshes of a grid have on which regions are united where floating numbers do
 not lead to a union: a few thousand of their last digits."""
 
+DEVELOPABLE_ANGLE = 1e-6
+"""A surface is developable where its tangent plane turns by no more along its straight lines, as a sine, and these are
+no less straight: unrolled, lengths of it change by the square of that."""
+
+UNROLLED_OF_LENGTH = 1e-12
+"""Part of a development by which points may move when it is integrated in steps half as long: then it is found."""
+
+SAME_SCORE = 1e-9
+"""Two nets of a body are as good as each other where what is to be cut of them, as a part of all edges, differs by
+less: the one found first is taken."""
+
 UNITED_GRID_OF_ZERO = 2.0**-6
 """Part of the distance that counts as zero that the meshes of the grid have on which faces of bodies are united: far
 finer than what is one point, so that what two planes make of a point is one however flat they meet."""

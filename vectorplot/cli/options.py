@@ -804,7 +804,7 @@ def _proof(params: Mapping[str, Any], told: Told, source: Source) -> Companion:
     return Companion("certificate", path, content)
 
 
-def _tiles(params: Mapping[str, Any], format_: str) -> list[Companion]:
+def tiles_beside(params: Mapping[str, Any], format_: str) -> list[Companion]:
     """The sheets that a large page is cut into, a file each. Errors: bad usage for a picture that goes to stdout."""
     columns, rows = params["tiles"]
     out = Path(params["out"])
@@ -862,7 +862,7 @@ def picture_verb(
             source = Source(params["scene_file"], params["exaggeration"], upright=told.camera.says_where())
             said = {"source": source, "format_": written, "picture": picture, "jobs": jobs, "overlaid": overlaid}
             beside = [] if params.get("certificate") is None else [_proof(params, told, source)]
-            beside += [] if params.get("tiles") is None else _tiles(params, written)
+            beside += [] if params.get("tiles") is None else tiles_beside(params, written)
             return {**said, "beside": beside} if beside else said
 
         def content(params: Mapping[str, Any]) -> bytes:

@@ -91,6 +91,7 @@ def test_the_matrix_of_a_sheet_takes_points_of_the_world_to_it():
             assert image[:, :2] / image[:, 3:] == pytest.approx(paths.points, abs=1e-3)
 
 
+@pytest.mark.slow
 def test_filled_polygons_are_cut_and_cover_the_page_together():
     whole = vp.paint("data/cubes.scene", page="A5", lines="contour")
     sheets = tiled(whole, 2, 2)
@@ -122,6 +123,7 @@ def test_lines_among_fills_and_shades_are_cut_where_they_are():
         assert fills.colours[fills.offsets[1] :, 0].tolist() == np.rint(x).tolist()
 
 
+@pytest.mark.slow
 def test_real_texts_are_on_the_sheets_that_they_reach():
     whole = vp.draw("data/house.scene", page="A5", title="House", text="real")
     found = [[sum(map(len, sheet.layers[-1].texts)) for sheet in row] for row in tiled(whole, 2, 2)]

@@ -119,6 +119,7 @@ def test_a_length_that_is_none_is_one_sentence(wrong):
 
 
 @pytest.mark.parametrize("fills", ["painted", "erasing"])
+@pytest.mark.slow
 def test_short_lines_over_painted_faces_are_left_out(fills):
     how = {"page": "A5", "lines": "contour,crease", "fills": fills}
     usual, without = (vp.paint("data/table.scene", **how, shortest_mm=short) for short in (None, 8.0))
@@ -130,6 +131,7 @@ def test_short_lines_over_painted_faces_are_left_out(fills):
         assert ends[1] < ends[0]
 
 
+@pytest.mark.slow
 def test_short_lines_over_pixels_and_on_sheets_are_left_out():
     how = {"size": (160, 120), "samples": 1, "lines": "contour,crease"}
     pictures = [vp.render("data/table.scene", **how, shortest_mm=short).pixels for short in (None, 1000.0)]

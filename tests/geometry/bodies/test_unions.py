@@ -86,6 +86,7 @@ def test_what_is_around_a_cavity_keeps_its_inner_faces():
     assert (volume(body), area(body), body.face_count) == (26.0, 60.0, 12)
 
 
+@pytest.mark.slow
 def test_vertices_keep_their_coordinates():
     one, two = turned(box((1, 2, 3))), turned(hull_mesh(np.random.default_rng(1).normal(size=(12, 3))))
     body = polyhedron_union([one, two])
@@ -96,6 +97,7 @@ def test_vertices_keep_their_coordinates():
 
 
 @given(st.integers(0, 10_000))
+@pytest.mark.slow
 def test_points_are_in_the_union_where_they_are_in_a_body(seed):
     random = np.random.default_rng(seed)
     bodies = [hull_mesh(random.normal(size=(random.integers(4, 12), 3)) + random.normal(size=3)) for _ in range(4)]
