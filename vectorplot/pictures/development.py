@@ -199,10 +199,9 @@ def _curves_on_mesh(item: Item, net: Net, others: Sequence[Item], tracing: Traci
         if isinstance(other.shape, Mesh):
             yield _met(mesh, of_convex_faces(other.shape), on_faces)
         elif is_parametrised(other.shape):
-            section = mesh_section(other.shape, mesh, tracing=tracing)
-            pairs = segments(section.curves)
-            points = section.curves.points
-            faces = section.faces[pairs[:, 0]]
+            met = mesh_section(other.shape, mesh, tracing=tracing)
+            pairs, points = segments(met.curves), met.curves.points
+            faces = met.faces[pairs[:, 0]]
             yield on_faces(points[pairs[:, 0]], points[pairs[:, 1]], faces, LineKind.INTERSECTION)
 
 
@@ -263,10 +262,9 @@ def _of_surface(item: Item, others: Sequence[Item], tolerance: float, tracing: T
     sizes = [len(ring) for ring in areas]
     polygons = polygons_of(np.concatenate(areas).T, ragged.offsets(sizes))
     pieces = np.array(of_one, dtype=np.intp)
-    seams = [np.array(ends).reshape(-1, 2, 2) for ends in (one, other)]
-    return Developed(
-        item.name, Strokes2D.joined(parts), len(areas), polygons, np.arange(len(areas)), *seams, pieces, pieces, 0.0
-    )
+    first, last = (np.array(ends, dtype=np.float64).reshape(-1, 2, 2) for ends in (one, other))
+    strokes, numbers = Strokes2D.joined(parts), np.arange(len(areas))
+    return Developed(item.name, strokes, len(areas), polygons, numbers, first, last, pieces, pieces, 0.0)
 
 
 def _smooth_parts(shape: Any) -> list[Surface]:
