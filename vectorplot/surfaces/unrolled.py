@@ -11,6 +11,7 @@ from vectorplot.arrays import Floats
 from vectorplot.errors import InputError
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.budget import may_stop
+from vectorplot.geometry.elementary import arcsin
 from vectorplot.geometry.vectors import component_sum, cross, dot, norm
 from vectorplot.surfaces.surface import Domain, Surface, normals, second_jets
 from vectorplot.tolerances import DEVELOPABLE_ANGLE, LEAST_DIVISOR, UNROLLED_OF_LENGTH
@@ -91,7 +92,7 @@ class Unrolled:
             sine = np.where(there, norm(cross(unit, own)), 0.0)
             bend = float(sine.max())
             if bend > DEVELOPABLE_ANGLE:
-                degrees = float(np.degrees(np.arcsin(min(bend, 1.0))))
+                degrees = float(np.degrees(arcsin(min(bend, 1.0))))
                 raise InputError(f"is not developable: its tangent plane turns by {degrees:.3g} degrees along a ruling")
             ends = size.reshape(49, 7)[:, [0, -1]].min(axis=0)
             return cls(one, domain.v_start if ends[0] >= ends[1] else domain.v_end, bend)
