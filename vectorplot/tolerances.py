@@ -73,6 +73,9 @@ NO_NORMAL = 1e-9
 WHOLE_TURN = 1e-9
 """An arc that turns by a whole turn but for so many radians is the whole ellipse."""
 
+STRAIGHT_TURN = 1e-6
+"""A polygon that turns by fewer radians at a corner goes straight on there: no circle has corners so close."""
+
 LOOP_TURN = 1e-6
 """Angles seen from the middle of a loop add up to a whole turn but for so many radians; anything else is off by a
 turn."""
@@ -407,6 +410,10 @@ matter."""
 ARC_OF_TOLERANCE = 1e-3
 """An arc of an ellipse is one only if all points agree within this part of the tolerance: what was an arc agrees to
 rounding, and what merely resembles one does not."""
+
+ONE_CIRCLE_OF_RADIUS = 1e-3
+"""Circles through three neighbouring corners each, whose middles are no farther apart than this part of their radius,
+are perhaps one: points in a row that pass are looked at as a whole."""
 
 CUBIC_OF_TOLERANCE = 1e-4
 """Neighbouring Bézier curves that are exact become one where all control points agree within this part of the
