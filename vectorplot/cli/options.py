@@ -37,6 +37,7 @@ from vectorplot.cli.option_values import (
     point,
     said_or_none,
     style,
+    tiles,
     upwards,
 )
 from vectorplot.cli.picture import (
@@ -65,7 +66,7 @@ if TYPE_CHECKING:
     from vectorplot.shading.image import Image
 
 
-# Options that cut what is shown, or move its parts apart.
+# Options that cut what is shown, move its parts apart, or make them one.
 
 
 def cut_text(text: str) -> str:
@@ -132,6 +133,7 @@ CUT_OPTIONS = (
     CUT_SPACING,
     click.option("--cut-angle", type=number, default=45.0, metavar="DEG", help="Of these strokes, from what is level."),
     EXPLODE,
+    click.option("--union", is_flag=True, help="Solids that touch or overlap, and look alike, are one body."),
 )
 
 
@@ -152,7 +154,7 @@ def moved_apart(scene: Scene, asked: Sequence[Apart]) -> Scene:
 
 @dataclass(frozen=True)
 class CutOptions:
-    """The cuts that the user asked for, and how parts are moved apart."""
+    """The cuts that the user asked for, how parts are moved apart, and whether those that touch are one."""
 
     cut: tuple[str, ...] = ()
     cut_away: str = "gone"
@@ -160,6 +162,7 @@ class CutOptions:
     cut_spacing: float | None = None
     cut_angle: float = 45.0
     explode: tuple[Apart, ...] = ()
+    union: bool = False
 
     @classmethod
     def of(cls, options: Mapping[str, Any]) -> CutOptions:
@@ -170,6 +173,10 @@ class CutOptions:
         """The scene with these cuts. Errors: InputError for unknown colours."""
         from vectorplot.scene.cuts import Cut
 
+        if self.union:
+            from vectorplot.scene.united import united
+
+            scene = united(scene)
         scene = moved_apart(scene, self.explode)
         spelled = partial(Cut.of, away=self.cut_away, colour=self.cut_colour)
         hatched = partial(spelled, spacing_mm=self.cut_spacing, angle_deg=self.cut_angle)
@@ -859,7 +866,7 @@ def _proof(params: Mapping[str, Any], told: Told, source: Source) -> Companion:
     return Companion("certificate", path, content)
 
 
-def _tiles(params: Mapping[str, Any], format_: str) -> list[Companion]:
+def tiles_beside(params: Mapping[str, Any], format_: str) -> list[Companion]:
     """The sheets that a large page is cut into, a file each. Errors: bad usage for a picture that goes to stdout."""
     columns, rows = params["tiles"]
     out = Path(params["out"])
@@ -917,7 +924,7 @@ def picture_verb(
             source = Source(params["scene_file"], params["exaggeration"], upright=told.camera.says_where())
             said = {"source": source, "format_": written, "picture": picture, "jobs": jobs, "overlaid": overlaid}
             beside = [] if params.get("certificate") is None else [_proof(params, told, source)]
-            beside += [] if params.get("tiles") is None else _tiles(params, written)
+            beside += [] if params.get("tiles") is None else tiles_beside(params, written)
             return {**said, "beside": beside} if beside else said
 
         def content(params: Mapping[str, Any]) -> bytes:
@@ -1090,6 +1097,21 @@ HALO = click.option(
     default=0.0,
     metavar="MM",
     help="Gap beside lines that lie in front.",
+)
+
+SHORTEST = click.option(
+    "--shortest",
+    "shortest_mm",
+    type=of_option("shortest_mm"),
+    metavar="MM",
+    help="Shorter strokes of lines are left out.  [default: none, of drawings those below 0.05 that are alone]",
+)
+
+TILES = click.option(
+    "--tiles",
+    type=tiles,
+    metavar="CxR",
+    help="Also the page in C x R parts, with registration marks, as OUT-ROW-COLUMN.",
 )
 
 LAYERS = click.option(

@@ -20,6 +20,7 @@ from vectorplot.cli.options import (
     MEASURE_OPTIONS,
     OUT,
     QUIET,
+    SHORTEST,
     TEXT,
     VIEW_WORDS,
     check_overlaid,
@@ -145,6 +146,7 @@ def _field(text: str) -> tuple[str, str]:
     EXPLODE,
     TEXT,
     crease_angle_option("Sharper edges are creases."),
+    SHORTEST,
     EXPLAIN,
     QUIET,
 )
