@@ -24,6 +24,14 @@ VERTICAL_SINE = 1e-15
 """A line of sight whose horizontal part is no longer is vertical: a few roundings of a unit vector, as a camera that
 looks down has azimuth 0 only then."""
 
+TRUE_NORMAL_SINE = 1e-7
+"""Normals that a CAD system tells are wrong by less: a face that makes a smaller angle with the view is seen edge-on.
+Its surfaces are no farther apart at common edges than a ten millionth of their size."""
+
+SAME_SURFACE = 1e-6
+"""Two faces of a part whose radii, axes and middles differ by no more than this part of its extent, and whose directions
+by no larger sine, lie on one surface: files hold six to twelve digits."""
+
 NO_AZIMUTH_SINE = 1e-6
 """Near the zenith, below this sine, an azimuth has so few digits that the up vector says how a picture stands."""
 

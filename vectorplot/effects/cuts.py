@@ -747,8 +747,8 @@ def _between(item: Item, camera: Camera, tolerance: float) -> Item:
             place = np.where(place >= 0, np.append(next_place, -1)[place], -1)
         if item.added_edges is not None and len(item.added_edges):
             beyond = [_beyond(camera, side, limit) for side, limit in _planes(camera)]
-            ends = segments_outside(item.added_edges[:, 0], item.added_edges[:, 1], beyond)
-            item = replace(item, added_edges=np.stack(ends, axis=1))
+            start, end, _ = segments_outside(item.added_edges[:, 0], item.added_edges[:, 1], beyond)
+            item = replace(item, added_edges=np.stack([start, end], axis=1))
         if mesh is item.shape:
             return item
         kept = tuple(replace(p, face=int(place[p.face])) for p in item.patterns if place[p.face] >= 0)

@@ -158,6 +158,9 @@ class Item(Movable["Item"]):
         The ends of those edges of a polyhedron that are drawn, none of the others (None: all).
     added_edges : (e, 2, 3) array of float, optional
         The ends of segments that are drawn as creases of a polyhedron besides its edges.
+    tangent_edges : (e, 2, 3) array of float, optional
+        The ends of those edges of a polyhedron that are drawn as tangent edges, besides drawn_edges: the faces of the
+        part that it stands for meet there without a crease.
     face_looks : FaceLooks, optional
         Colours and materials of single faces (None: all have those of the item).
 
@@ -193,6 +196,7 @@ class Item(Movable["Item"]):
     default_lines: tuple[str, ...] | None = None
     drawn_edges: Floats | None = None
     added_edges: Floats | None = None
+    tangent_edges: Floats | None = None
     face_looks: FaceLooks | None = None
 
     def __post_init__(self) -> None:
@@ -245,8 +249,8 @@ class Item(Movable["Item"]):
         fields = None if self.fields is None else self.fields.transformed(m)
         normals = None if self.normals is None else self.normals.transformed(m)
         looks = None if self.face_looks is None else self.face_looks.transformed(m)
-        listed = (self.drawn_edges, self.added_edges)
-        edges, added = (None if ends is None else matmul(ends, m[:3, :3].T) + m[:3, 3] for ends in listed)
+        listed = (self.drawn_edges, self.added_edges, self.tangent_edges)
+        edges, added, tangent = (None if ends is None else matmul(ends, m[:3, :3].T) + m[:3, 3] for ends in listed)
         return replace(
             self,
             shape=shape,
@@ -257,6 +261,7 @@ class Item(Movable["Item"]):
             normals=normals,
             drawn_edges=edges,
             added_edges=added,
+            tangent_edges=tangent,
             face_looks=looks,
         )
 

@@ -11,7 +11,13 @@ import numpy as np
 from vectorplot.arrays import Floats, Ints
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.features.feature_lines import Detail, Sight
-from vectorplot.features.mesh_feature_lines import mesh_feature_lines, smooth_contours
+from vectorplot.features.mesh_feature_lines import (
+    SmoothContours,
+    enclosed,
+    mesh_feature_lines,
+    smooth_contours,
+    true_contours,
+)
 from vectorplot.features.mesh_integration import mesh_geodesics, mesh_integral_curves
 from vectorplot.features.mesh_lines import MeshCurves
 from vectorplot.features.mesh_streamlines import evenly_spaced_mesh_curves
@@ -21,6 +27,7 @@ from vectorplot.features.surface_points import USUAL_CREASE_DEG
 from vectorplot.features.tangent_fields import AsymptoticDirections, PrincipalDirections, TangentField
 from vectorplot.geometry.budget import USUAL, Budget, unheard
 from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.mesh_cuts import segments_outside
 from vectorplot.scene.item import Item
 from vectorplot.scene.surface_lines import (
     ON_MESHES,
@@ -140,9 +147,16 @@ class SmoothContourLines:
     side: Ints
 
 
-def smooth_contour_lines(mesh: Mesh, view: View, crease_angle_deg: float) -> SmoothContourLines:
-    """The contours across the faces of a mesh; they end at its creases."""
-    found = smooth_contours(mesh, sight_in_world(view), crease_angle_deg)
+def smooth_contour_lines(item: Item, view: View, crease_angle_deg: float) -> SmoothContourLines:
+    """The contours across the faces of a polyhedron: where its true normals say, if it has any, less what is cut away;
+    else by average ones, up to its creases."""
+    sight, true = sight_in_world(view), item.normals
+    if true is None:
+        found = smooth_contours(item.mesh, sight, crease_angle_deg)
+    else:
+        found = true_contours(true.mesh, true.at_vertices, sight, enclosed(item.mesh))
+        parts = segments_outside(found.start, found.end, item.cut_by)
+        found = SmoothContours(parts[0], parts[1], found.aside[parts[2]])
     start, end = view.points_of(found.start), view.points_of(found.end)
     aside = view.points_of(found.start + found.aside) - start
     with np.errstate(divide="ignore", invalid="ignore"):
