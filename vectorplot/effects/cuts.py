@@ -752,7 +752,9 @@ def _between(item: Item, camera: Camera, tolerance: float) -> Item:
         if mesh is item.shape:
             return item
         kept = tuple(replace(p, face=int(place[p.face])) for p in item.patterns if place[p.face] >= 0)
-        return replace(item, shape=mesh, patterns=kept)
+        # Contours by the normals of the whole would reach beyond what is left.
+        normals = None if item.curves.smooth_contours else item.normals
+        return replace(item, shape=mesh, patterns=kept, normals=normals)
     low, high = smooth_bounds(item.shape)
     corners = np.where(np.array(list(np.ndindex(2, 2, 2))) == 1, high, low)
     met = []

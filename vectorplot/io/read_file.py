@@ -18,11 +18,6 @@ _EXPORT_MESH = "export it as stl, obj, ply, off or glb"
 _NO_SHAPES = "it holds no shapes in space"
 
 _SUFFIXES = {
-    ".step": ("a STEP file", _EXPORT_MESH),
-    ".stp": ("a STEP file", _EXPORT_MESH),
-    ".iges": ("an IGES file", _EXPORT_MESH),
-    ".igs": ("an IGES file", _EXPORT_MESH),
-    ".brep": ("an Open CASCADE shape", _EXPORT_MESH),
     ".fcstd": ("a FreeCAD document", _EXPORT_MESH),
     ".scad": ("an OpenSCAD program", "export it from OpenSCAD as stl or off"),
     ".dxf": ("a DXF drawing", _EXPORT_MESH),
@@ -60,7 +55,7 @@ _SUFFIXES = {
 }
 
 _BEGINNINGS = (
-    (b"ISO-10303-21", *_SUFFIXES[".step"]),
+    (b"ISO-10303-21", "a STEP file", "give its name the suffix .step"),
     (b"PK\x03\x04", "a zip archive", "unpack it first, or export a mesh"),
     (b"\x1f\x8b", *_SUFFIXES[".gz"]),
     (b"%PDF", *_SUFFIXES[".pdf"]),
@@ -97,6 +92,7 @@ def unsupported_kind(path: Path, head: bytes) -> str | None:
 MOLECULE_SUFFIXES = (".xyz", ".pdb", ".ent", ".cif", ".mmcif")
 TERRAIN_SUFFIXES = (".asc",)
 SCENE_SUFFIXES = (".scene", ".txt")
+CAD_SUFFIXES = (".step", ".stp", ".iges", ".igs", ".brep")
 
 
 def read(path: str | os.PathLike[str], *, exaggeration: float | None = None) -> Scene:
@@ -120,6 +116,10 @@ def read(path: str | os.PathLike[str], *, exaggeration: float | None = None) -> 
         return molecule_scene(read_molecule(path))
     if path.suffix.lower() in MESH_SUFFIXES:
         return mesh_scene(path)
+    if path.suffix.lower() in CAD_SUFFIXES:
+        from vectorplot.io.cad_files import cad_scene
+
+        return cad_scene(path)
     _check_text(path)
     return _scene_text(path)
 

@@ -1,0 +1,617 @@
+"""Files and objects of CAD systems (STEP, IGES, BREP; build123d, CadQuery) -> scenes: OpenCASCADE reads them and makes
+fine triangles of their faces; which edges are sharp, tangent or seams, the normals on both sides tell."""
+
+from __future__ import annotations
+
+import warnings
+from collections import defaultdict
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from enum import IntEnum
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.errors import InputError, InputWarning, not_installed
+from vectorplot.geometry import ragged
+from vectorplot.geometry.algebra import matmul
+from vectorplot.geometry.budget import may_stop
+from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.vectors import cross, dot, norm
+from vectorplot.geometry.weld import distinct_points
+from vectorplot.io.material_library import looks_of_colours
+from vectorplot.io.mesh_file import shown
+from vectorplot.io.read_mesh import with_looks
+from vectorplot.scene.extent import check_range
+from vectorplot.scene.item import Item, SurfaceNormals
+from vectorplot.scene.scene import Scene, together
+from vectorplot.scene.surface_lines import SurfaceLines
+from vectorplot.tolerances import LEAST_DIVISOR, SAME_SURFACE, SEWN_OF_EXTENT
+from vectorplot.words import DRAWN, LineKind
+
+USUAL_TOLERANCE = 5e-5
+"""Triangles are no farther off their faces than this part of the diagonal of all that is read: 0.02 mm on a page A4."""
+
+WIDEST_TURN = 0.2
+"""Neighbouring triangles of one face turn by no more than about this angle, in radians: 32 sides make a circle."""
+
+TANGENT_COSINE = float(np.cos(np.radians(1.0)))
+"""Faces that meet at a smaller angle everywhere along an edge are tangent to each other there."""
+
+MOST_TRIANGLES = 10_000_000
+"""A scene with more triangles is refused."""
+
+MOST_DEPTH = 100
+"""Assemblies in assemblies are followed so deep."""
+
+CAD_LINES = tuple(word for word in DRAWN if word != LineKind.INTERSECTION.word)
+"""What is drawn of parts where nothing is said: where parts only touch, as a pin in its bore, their triangles pierce."""
+
+
+# Bodies, and what is drawn of them.
+
+
+class EdgeKind(IntEnum):
+    """What an edge of a part is."""
+
+    SHARP = 0
+    """Its faces meet at an angle; or it has one face only, or more than two."""
+    TANGENT = 1
+    """Two faces meet without a crease."""
+    SEAM = 2
+    """A face meets itself without a crease, or another face of the same surface does: nothing shows there."""
+
+
+@dataclass(frozen=True, eq=False)
+class CadBody:
+    """A body as a CAD system tells it, each face with points of its own.
+
+    points (n,3); normals (n,3): of the surfaces there, outwards, zero where there is none; triangles (t,3): of points,
+    counter-clockwise from outside; face (t,): of which face each is a part; surfaces (f,9): the surface of each face, a
+    number for its kind (0: one that is compared with none; 1: a plane), its direction, a point and two sizes; shares
+    (f,4): red, green, blue and opacity of each face, NaN where it has none of its own. Uses of edges by faces: nodes
+    (k,): the points along each, offsets (u+1,), edge (u,): the number of the edge, and user (u,): the face; two uses of
+    an edge list their points in the same direction.
+    """
+
+    points: Floats
+    normals: Floats
+    triangles: Ints
+    face: Ints
+    surfaces: Floats
+    shares: Floats
+    nodes: Ints
+    offsets: Ints
+    edge: Ints
+    user: Ints
+
+    @property
+    def is_flat(self) -> bool:
+        """Whether all faces are planes."""
+        return bool((self.surfaces[:, 0] == PLANE).all())
+
+
+PLANE, CYLINDER, CONE, SPHERE, TORUS = 1.0, 2.0, 3.0, 4.0, 5.0
+"""Kinds of surfaces that are told from each other by their sizes; 0 stands for all others."""
+
+WIDTH = 9
+"""Numbers that describe a surface."""
+
+
+def edge_kinds(body: CadBody) -> Ints:
+    """(e,) the kind of each edge, see EdgeKind."""
+    count = int(body.edge.max(initial=-1)) + 1
+    kinds = np.full(count, int(EdgeKind.SHARP))
+    edge, one, two = _pairs_of_uses(body, np.bincount(body.edge, minlength=count) == 2)
+    if not len(edge):
+        return kinds
+    size = np.diff(body.offsets)[one]
+    first, second = (body.normals[body.nodes[ragged.ranges(body.offsets[use], size)]] for use in (one, two))
+    place, owner = ragged.place(size), ragged.owner(size)
+    # At the ends of an edge other faces may make corners.
+    known = first.any(axis=1) & second.any(axis=1)
+    inner = (place > 0) & (place < size[owner] - 1) | (size[owner] == 2)
+    cosine = np.where(known & inner, dot(first, second), 1.0)
+    smooth = np.minimum.reduceat(cosine, ragged.starts(size)) >= TANGENT_COSINE
+    smooth &= np.logical_or.reduceat(known & inner, ragged.starts(size))
+    same = (body.user[one] == body.user[two]) | _on_one_surface(body, body.user[one], body.user[two])
+    kinds[edge] = np.where(smooth, np.where(same, int(EdgeKind.SEAM), int(EdgeKind.TANGENT)), int(EdgeKind.SHARP))
+    return kinds
+
+
+def _pairs_of_uses(body: CadBody, among: Bools) -> tuple[Ints, Ints, Ints]:
+    """The edges (p,) among some (e,) with the first use and another use of each, of as many points; an edge with more
+    uses comes with every other one."""
+    order = np.argsort(body.edge, kind="stable")
+    order = order[among[body.edge[order]]]
+    edge = body.edge[order]
+    begin = np.searchsorted(edge, edge)
+    first, later = order[begin], np.flatnonzero(np.arange(len(edge)) > begin)
+    one, two = first[later], order[later]
+    size = np.diff(body.offsets)
+    alike = size[one] == size[two]
+    return edge[later][alike], one[alike], two[alike]
+
+
+def _on_one_surface(body: CadBody, one: Ints, two: Ints) -> Bools:
+    """(p,) whether pairs of faces are parts of one plane, cylinder, cone, ball or torus."""
+    a, b = body.surfaces[one], body.surfaces[two]
+    near = SAME_SURFACE * float(norm(np.ptp(body.points, axis=0)))
+    apart = b[:, 4:7] - a[:, 4:7]
+    # Points of planes and cylinders may lie anywhere on them, or on their axes.
+    beside = norm(cross(apart, a[:, 1:4]))
+    off = np.where(a[:, 0] == PLANE, np.abs(dot(apart, a[:, 1:4])), np.where(a[:, 0] == CYLINDER, beside, norm(apart)))
+    turned = (norm(cross(a[:, 1:4], b[:, 1:4])) > SAME_SURFACE) & (a[:, 0] != SPHERE)
+    sizes = np.abs(a[:, 7:] - b[:, 7:]).max(axis=1)
+    return np.asarray((a[:, 0] > 0.0) & (a[:, 0] == b[:, 0]) & ~turned & (off <= near) & (sizes <= near))
+
+
+def body_item(name: str, body: CadBody, group: str = "") -> Item:
+    """The item of a body: a mesh without gaps along its edges, of which the sharp and the tangent edges are drawn, and
+    contours where the normals of its surfaces say.
+
+    Errors: InputError for a body without a face that has an area.
+    """
+    kinds = edge_kinds(body)
+    vertex = _united(body, np.ones(len(kinds), dtype=np.bool_), distinct_points(body.points)[1])
+    place = np.unique(vertex, return_index=True)[1]
+    corners = vertex[body.triangles]
+    kept = np.flatnonzero(_all_differ(corners))
+    if not len(kept):
+        raise InputError(f"{name}: no face with an area")
+    positions = body.points[place]
+    mesh = Mesh.from_triangles(positions, corners[kept])
+    ends = [positions[vertex[own]] for own in (_segments(body, kinds == kind) for kind in EdgeKind)]
+    item = Item(name, mesh, group=group, default_lines=CAD_LINES, drawn_edges=ends[EdgeKind.SHARP])
+    item = with_looks(item, looks_of_colours(mesh, body.shares[body.face[kept]]))
+    if body.is_flat:
+        return item
+    normals = _true_normals(body, kinds, vertex, positions, kept)
+    return replace(
+        item, tangent_edges=ends[EdgeKind.TANGENT], normals=normals, curves=SurfaceLines(smooth_contours=True)
+    )
+
+
+def _united(body: CadBody, edges: Bools, same: Ints) -> Ints:
+    """(n,) numbers of points that all points have in common which lie on each other along some edges (e,), or have a
+    number (n,) in common."""
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+
+    _, one, two = _pairs_of_uses(body, edges)
+    size = np.diff(body.offsets)[one]
+    a, b = (body.nodes[ragged.ranges(body.offsets[use], size)] for use in (one, two))
+    count, numbers = len(body.points), np.arange(len(body.points))
+    a, b = np.concatenate([a, numbers]), np.concatenate([b, count + same])
+    whole = count + int(same.max(initial=-1)) + 1
+    links = coo_array((np.ones(len(a), dtype=np.bool_), (a, b)), shape=(whole, whole))
+    number = connected_components(links, directed=False)[1][:count]
+    return np.asarray(np.unique(number, return_inverse=True)[1].ravel(), dtype=np.intp)
+
+
+def _all_differ(corners: Ints) -> Bools:
+    a, b, c = corners.T
+    return np.asarray((a != b) & (b != c) & (c != a))
+
+
+def _segments(body: CadBody, edges: Bools) -> Ints:
+    """(s,2) the points at both ends of each segment of some edges (e,), by the first use of each."""
+    used, first = np.unique(body.edge, return_index=True)
+    use = first[edges[used]]
+    size = np.diff(body.offsets)[use]
+    along, begin = ragged.ranges(body.offsets[use], size), ragged.place(size)
+    start = np.flatnonzero(begin < np.repeat(size, size) - 1)
+    return np.stack([body.nodes[along[start]], body.nodes[along[start + 1]]], axis=1)
+
+
+def _true_normals(body: CadBody, kinds: Ints, vertex: Ints, positions: Floats, kept: Ints) -> SurfaceNormals:
+    """The normals at the vertices of the mesh of triangles kept (t,), taken apart along sharp edges."""
+    number = _united(body, kinds != EdgeKind.SHARP, np.arange(len(body.points)))
+    first = np.unique(number, return_index=True)[1]
+    corners = number[body.triangles[kept]]
+    mesh = Mesh.from_triangles(positions[vertex[first]], corners)
+    normals = _sums(number, body.normals, len(first))
+    none = ~normals.any(axis=1)
+    # At the tip of a cone and the pole of a ball triangles tell.
+    around = np.stack([np.bincount(corners.ravel(), np.repeat(part, 3), len(first)) for part in mesh.area_vectors.T], 1)
+    normals[none] = around[none]
+    normals /= np.maximum(norm(normals), LEAST_DIVISOR)[:, None]
+    several = np.bincount(vertex[first], minlength=len(positions)) > 1
+    return SurfaceNormals(mesh, normals, several[vertex[first]])
+
+
+def _sums(number: Ints, vectors: Floats, count: int) -> Floats:
+    """(count,3) the sum of the vectors (n,3) that have each number (n,)."""
+    return np.stack([np.bincount(number, part, count) for part in vectors.T], axis=1)
+
+
+# What OpenCASCADE reads. Its binding differs from version to version: 7.9 and 8.0 are known.
+
+BINDING = "OpenCASCADE (cadquery-ocp-novtk)"
+"""What files of CAD systems are read by."""
+
+_SHAPE_SUFFIXES = (".brep",)
+_IGES_SUFFIXES = (".iges", ".igs")
+
+
+def _occ(module: str) -> Any:
+    return import_module(f"OCP.{module}")
+
+
+def cad_scene(path: Path, tolerance: float | None = None) -> Scene:
+    """The bodies in a STEP, IGES or BREP file, in millimetres, each an item with the names and colours of the file;
+    those of one part are a group. tolerance: how far triangles may be off curved faces, as part of the diagonal of all
+    that is read; None: USUAL_TOLERANCE.
+
+    Errors: InputError where OpenCASCADE is not installed, and for a file that it cannot read or that holds no faces.
+    """
+    name = shown(path)
+    try:
+        _occ("TopoDS")
+    except ImportError:
+        raise not_installed(f"{name}: a file of a CAD system", BINDING, "step") from None
+    suffix = path.suffix.lower()
+    try:
+        if suffix in _SHAPE_SUFFIXES:
+            parts = _parts_of_shape(_read_shape(path), path.stem)
+        else:
+            parts = _read_document(path, suffix in _IGES_SUFFIXES)
+        return _scene(parts, USUAL_TOLERANCE if tolerance is None else tolerance)
+    except InputError as error:
+        raise (error if error.file else InputError(error.cause, file=name)) from None
+    except MemoryError:
+        raise InputError("too large for the memory", file=name) from None
+    except Exception as error:
+        # Of OpenCASCADE, all of whose errors are of a class of its own.
+        if not type(error).__module__.startswith("OCP"):
+            raise
+        raise InputError(f"OpenCASCADE cannot read it: {type(error).__name__} {error}", file=name) from None
+
+
+class _Numbers:
+    """Numbers of shapes of OpenCASCADE, from 0 as they come: the same for what is the same shape in the same place,
+    whichever way round it is."""
+
+    def __init__(self) -> None:
+        self._known = defaultdict[int, list[tuple[Any, int]]](list)
+        self._count = 0
+
+    def of(self, shape: Any) -> int:
+        """The number of a shape, a new one for a new shape."""
+        alike = self._known[hash(shape)]
+        found = next((number for one, number in alike if one.IsSame(shape)), None)
+        if found is None:
+            found, self._count = self._count, self._count + 1
+            alike.append((shape, found))
+        return found
+
+
+_Look = tuple[str, Floats | None]
+"""A name, which may be empty, and red, green, blue and opacity (4,), if they are known."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Part:
+    """A shape as it stands alone, where it stands, its name and colour (4,), and those of faces and solids in it."""
+
+    shape: Any
+    location: Any
+    name: str
+    colour: Floats | None
+    within: Callable[[Any], _Look]
+
+
+def _read_shape(path: Path) -> Any:
+    """The shape in a BREP file."""
+    shape = _occ("TopoDS").TopoDS_Shape()
+    if not _occ("BRepTools").BRepTools.Read_s(shape, str(path), _occ("BRep").BRep_Builder()) or shape.IsNull():
+        raise InputError("not a BREP file that OpenCASCADE can read")
+    return shape
+
+
+def _parts_of_shape(shape: Any, name: str, colour: Floats | None = None) -> list[_Part]:
+    """One part, without names and colours of what it is made of."""
+    return [_Part(shape, _occ("TopLoc").TopLoc_Location(), name, colour, lambda _: ("", None))]
+
+
+def _read_document(path: Path, iges: bool) -> list[_Part]:
+    """The parts in a STEP or IGES file."""
+    document = _occ("TDocStd").TDocStd_Document(_occ("TCollection").TCollection_ExtendedString("vectorplot"))
+    if iges:
+        reader = _occ("IGESCAFControl").IGESCAFControl_Reader()
+    else:
+        reader = _occ("STEPCAFControl").STEPCAFControl_Reader()
+    kind = "an IGES" if iges else "a STEP"
+    if reader.ReadFile(str(path)) != _occ("IFSelect").IFSelect_ReturnStatus.IFSelect_RetDone:
+        raise InputError(f"not {kind} file that OpenCASCADE can read: it is damaged, or something else")
+    if not reader.Transfer(document):
+        raise InputError("it holds no shapes that OpenCASCADE can make")
+    return _parts_of_document(document, path.stem)
+
+
+def _labels(fill: Callable[[Any], object]) -> list[Any]:
+    """The labels that a function fills a sequence with."""
+    try:
+        labels = _occ("TDF").TDF_LabelSequence()
+    except AttributeError:
+        labels = _occ("collections").Sequence_TDF_Label()
+    fill(labels)
+    return [labels.Value(number) for number in range(1, labels.Length() + 1)]
+
+
+def _parts_of_document(document: Any, stem: str) -> list[_Part]:
+    """The parts of a document in the order of its assemblies, each time that they are used."""
+    xcaf = _occ("XCAFDoc")
+    tools, shapes = xcaf.XCAFDoc_DocumentTool, xcaf.XCAFDoc_ShapeTool
+    tool, colours = tools.ShapeTool_s(document.Main()), tools.ColorTool_s(document.Main())
+    found = list[_Part]()
+    nowhere = _occ("TopLoc").TopLoc_Location()
+    waiting = [(label, nowhere, None, 0) for label in reversed(_labels(tool.GetFreeShapes))]
+    while waiting:
+        label, location, colour, depth = waiting.pop()
+        if depth > MOST_DEPTH:
+            raise InputError(f"assemblies are more than {MOST_DEPTH} deep")
+        own, product = _colour_of(colours, label), label
+        if shapes.IsReference_s(label):
+            location = location.Multiplied(shapes.GetLocation_s(label))
+            product = _occ("TDF").TDF_Label()
+            shapes.GetReferredShape_s(label, product)
+        # What an assembly says of its parts goes before what they say themselves.
+        colour = next((one for one in (colour, own, _colour_of(colours, product)) if one is not None), None)
+        if shapes.IsAssembly_s(product):
+            inside = _labels(lambda labels, product=product: shapes.GetComponents_s(product, labels))
+            waiting += [(one, location, colour, depth + 1) for one in reversed(inside)]
+            continue
+        name = _name_of(product) or _name_of(label) or stem
+        found.append(_Part(shapes.GetShape_s(product), location, name, colour, _looks_within(colours, product)))
+    return found
+
+
+def _name_of(label: Any) -> str:
+    """What a label is called; nothing for names that only number it."""
+    attribute = _occ("TDataStd").TDataStd_Name()
+    if not label.FindAttribute(_occ("TDataStd").TDataStd_Name.GetID_s(), attribute):
+        return ""
+    name = str(attribute.Get().ToExtString()).strip()
+    return "" if name.startswith("=>[") else name
+
+
+def _looks_within(colours: Any, label: Any) -> Callable[[Any], _Look]:
+    """What solids and faces of a part are called, and their colours."""
+    shapes = _occ("XCAFDoc").XCAFDoc_ShapeTool
+    inside, numbers = _labels(lambda labels: shapes.GetSubShapes_s(label, labels)), _Numbers()
+    looks = {numbers.of(shapes.GetShape_s(one)): (_name_of(one), _colour_of(colours, one)) for one in inside}
+    return lambda shape: looks.get(numbers.of(shape), ("", None)) if looks else ("", None)
+
+
+def _colour_of(colours: Any, label: Any) -> Floats | None:
+    """(4,) red, green, blue and opacity of a label; None where it has none."""
+    kinds, rgba = _occ("XCAFDoc").XCAFDoc_ColorType, _occ("Quantity").Quantity_ColorRGBA()
+    for kind in (kinds.XCAFDoc_ColorSurf, kinds.XCAFDoc_ColorGen):
+        if colours.GetColor_s(label, kind, rgba):
+            srgb = rgba.GetRGB().Values(_occ("Quantity").Quantity_TypeOfColor.Quantity_TOC_sRGB)
+            return np.array([*srgb, rgba.Alpha()])
+    return None
+
+
+# Parts -> bodies -> items.
+
+
+def _scene(parts: Sequence[_Part], tolerance: float) -> Scene:
+    """The items of parts, those that are used several times triangulated once."""
+    shapes, boxes, made = _Numbers(), dict[int, Floats](), dict[tuple[int, bytes], list[Item]]()
+    numbers = [shapes.of(part.shape) for part in parts]
+    for number, part in zip(numbers, parts, strict=True):
+        boxes.setdefault(number, _corners(part.shape))
+    matrices = [_matrix(part.location) for part in parts]
+    around = [_moved(boxes[number], matrix) for number, matrix in zip(numbers, matrices, strict=True)]
+    every = np.concatenate([np.zeros((0, 3)), *around])
+    if not len(every):
+        raise InputError("it holds no faces")
+    check_range(np.array([every.min(axis=0), every.max(axis=0)]))
+    extent = float(norm(np.ptp(every, axis=0)))
+    items, triangles = list[Item](), 0
+    for number, part, matrix in zip(numbers, parts, matrices, strict=True):
+        may_stop()
+        key = number, b"" if part.colour is None else part.colour.tobytes()
+        if key not in made:
+            made[key] = _items_of_part(part, tolerance * extent, extent)
+        items += made[key] if (matrix == np.eye(4)).all() else [item.transformed(matrix) for item in made[key]]
+        triangles += sum(item.mesh.face_count for item in made[key])
+        if triangles > MOST_TRIANGLES:
+            raise InputError(f"its parts take more than {MOST_TRIANGLES} triangles: allow a coarser tolerance")
+    if not items:
+        raise InputError("it holds no faces")
+    return together([Scene((item,)) for item in items])
+
+
+def _corners(shape: Any) -> Floats:
+    """(8,3) the corners of the box around the faces of a shape; (0,3) where it has none."""
+    if not any(True for _ in _explored(shape, "FACE")):
+        return np.zeros((0, 3))
+    box = _occ("Bnd").Bnd_Box()
+    _occ("BRepBndLib").BRepBndLib.Add_s(shape, box, False)
+    low, high = (np.array(corner.Coord()) for corner in (box.CornerMin(), box.CornerMax()))
+    return np.where(np.array(list(np.ndindex(2, 2, 2))) == 1, high, low)
+
+
+def _matrix(location: Any) -> Floats:
+    """(4,4) the matrix of a location."""
+    moved, matrix = location.Transformation(), np.eye(4)
+    matrix[:3] = [[moved.Value(row, column) for column in range(1, 5)] for row in range(1, 4)]
+    return matrix
+
+
+def _moved(points: Floats, matrix: Floats) -> Floats:
+    return matmul(points, matrix[:3, :3].T) + matrix[:3, 3]
+
+
+def _explored(shape: Any, kind: str, outside: str = "SHAPE") -> Iterator[Any]:
+    """The parts of a shape of a kind, such as FACE, that are in none of another kind."""
+    kinds, topods = _occ("TopAbs").TopAbs_ShapeEnum, _occ("TopoDS").TopoDS
+    name = kind.capitalize()
+    cast = getattr(topods, f"{name}_s", None) or getattr(topods, name)
+    explorer = _occ("TopExp").TopExp_Explorer(
+        shape, getattr(kinds, f"TopAbs_{kind}"), getattr(kinds, f"TopAbs_{outside}")
+    )
+    while explorer.More():
+        yield cast(explorer.Current())
+        explorer.Next()
+
+
+def _items_of_part(part: _Part, distance: float, extent: float) -> list[Item]:
+    """The items of a part where it stands alone, those of several bodies in one group; distance: how far triangles may
+    be off; extent: of all that is read."""
+    solids = list(_explored(part.shape, "SOLID"))
+    free = list(_explored(part.shape, "FACE", outside="SOLID"))
+    sewn = _sewn(free, SEWN_OF_EXTENT * extent) if free else []
+    items, group = list[Item](), part.name if len(solids) + len(sewn) > 1 else ""
+    for shape in [*solids, *sewn]:
+        may_stop()
+        _occ("BRepTools").BRepTools.Clean_s(shape)
+        _occ("BRepMesh").BRepMesh_IncrementalMesh(shape, distance, False, WIDEST_TURN, False)
+        called, own = part.within(shape)
+        name = called or part.name
+        body, left = _body(shape, part.colour if own is None else own, part.within)
+        if left:
+            text = f"{name}: {left} faces could not be divided into triangles: they are left out"
+            warnings.warn(text, InputWarning, stacklevel=2)
+        if len(body.triangles):
+            items.append(body_item(name, body, group))
+    return items
+
+
+def _sewn(faces: Sequence[Any], near: float) -> list[Any]:
+    """Solids and open shapes that faces of no solid make, which are joined along edges that are near each other."""
+    sewing = _occ("BRepBuilderAPI").BRepBuilderAPI_Sewing(near)
+    for face in faces:
+        sewing.Add(face)
+    sewing.Perform()
+    whole = sewing.SewedShape()
+    shells = list(_explored(whole, "SHELL"))
+    closed = [shell for shell in shells if _occ("BRep").BRep_Tool.IsClosed_s(shell)]
+    made = [_occ("ShapeFix").ShapeFix_Solid().SolidFromShell(shell) for shell in closed]
+    rest = [shell for shell in shells if shell not in closed]
+    alone = list(_explored(whole, "FACE", outside="SHELL"))
+    if alone:
+        builder, compound = _occ("BRep").BRep_Builder(), _occ("TopoDS").TopoDS_Compound()
+        builder.MakeCompound(compound)
+        for face in alone:
+            builder.Add(compound, face)
+        rest.append(compound)
+    return [*made, *rest]
+
+
+def _body(shape: Any, colour: Floats | None, within: Callable[[Any], _Look]) -> tuple[CadBody, int]:
+    """What the triangulated faces of a shape are, and how many of them have no triangles. colour: of faces that have
+    none of their own."""
+    edges, missing, start = _Numbers(), 0, 0
+    points, normals, triangles = [np.zeros((0, 3))], [np.zeros((0, 3))], [np.zeros((0, 3), dtype=np.intp)]
+    surfaces, shares, counts = list[Floats](), list[Floats](), list[int]()
+    nodes, sizes, edge, user = [np.zeros(0, dtype=np.intp)], list[int](), list[int](), list[int]()
+    tool = _occ("BRep").BRep_Tool
+    for face in _explored(shape, "FACE"):
+        may_stop()
+        location = _occ("TopLoc").TopLoc_Location()
+        triangulation = tool.Triangulation_s(face, location)
+        if triangulation is None or not triangulation.NbTriangles():
+            missing += 1
+            continue
+        number, turned = len(surfaces), face.Orientation() == _occ("TopAbs").TopAbs_Orientation.TopAbs_REVERSED
+        matrix = _matrix(location)
+        own = _moved(np.array([node.Coord() for node in triangulation.MapNodeArray()]), matrix)
+        corners = np.array([one.Get() for one in triangulation.MapTriangleArray()], dtype=np.intp) - 1
+        surface, up = _surface(face, triangulation)
+        points.append(own)
+        normals.append(-up if turned else up)
+        triangles.append(start + (corners[:, ::-1] if turned else corners))
+        counts.append(len(corners))
+        surfaces.append(surface)
+        given = within(face)[1]
+        given = colour if given is None else given
+        shares.append(np.full(4, np.nan) if given is None else given)
+        for one in _explored(face, "EDGE"):
+            along = None if tool.Degenerated_s(one) else tool.PolygonOnTriangulation_s(one, triangulation, location)
+            if along is not None:
+                nodes.append(start - 1 + np.array(list(along.Nodes()), dtype=np.intp))
+                sizes.append(len(nodes[-1]))
+                edge.append(edges.of(one))
+                user.append(number)
+        start += len(own)
+    body = CadBody(
+        np.concatenate(points),
+        np.concatenate(normals),
+        np.concatenate(triangles),
+        ragged.owner(counts),
+        np.array(surfaces).reshape(-1, WIDTH),
+        np.array(shares).reshape(-1, 4),
+        np.concatenate(nodes),
+        ragged.offsets(sizes),
+        np.array(edge, dtype=np.intp),
+        np.array(user, dtype=np.intp),
+    )
+    return body, missing
+
+
+def _surface(face: Any, triangulation: Any) -> tuple[Floats, Floats]:
+    """(WIDTH,) what surface a face lies on, as CadBody says, and (n,3) the unit normals at the points of its triangles,
+    to the left of v and before u."""
+    adaptor = _occ("BRepAdaptor").BRepAdaptor_Surface(face, False)
+    kind = str(adaptor.GetType()).rpartition("_")[2]
+    described = np.zeros(WIDTH)
+    made = _DESCRIBED.get(kind)
+    if made is not None:
+        described[:] = made(adaptor)
+    gp = _occ("gp")
+    point, along_u, along_v = gp.gp_Pnt(), gp.gp_Vec(), gp.gp_Vec()
+    places = [place.Coord() for place in triangulation.MapUVNodeArray()]
+    partials = np.empty((len(places), 2, 3))
+    for row, (u, v) in enumerate(places[:1] if kind == "Plane" else places):
+        adaptor.D1(u, v, point, along_u, along_v)
+        partials[row] = along_u.Coord(), along_v.Coord()
+    if kind == "Plane":
+        partials[1:] = partials[0]
+    normals = cross(partials[:, 0], partials[:, 1])
+    length = norm(normals)
+    sizes = norm(partials)
+    # Where parameter lines meet in a point, or run along each other, there is no normal.
+    none = length <= SAME_SURFACE * sizes.max(axis=0, initial=0.0).prod()
+    return described, np.where(none[:, None], 0.0, normals / np.where(none, 1.0, length)[:, None])
+
+
+def _described(kind: float, frame: Any, point: Any, *sizes: float) -> list[float]:
+    """A kind, the direction of a frame, a point and sizes, as numbers."""
+    return [kind, *frame.Direction().Coord(), *point.Coord(), *sizes, *[0.0] * (2 - len(sizes))]
+
+
+def _of_plane(adaptor: Any) -> list[float]:
+    position = adaptor.Plane().Position()
+    return _described(PLANE, position, position.Location())
+
+
+def _of_cylinder(adaptor: Any) -> list[float]:
+    shape = adaptor.Cylinder()
+    return _described(CYLINDER, shape.Position(), shape.Position().Location(), shape.Radius())
+
+
+def _of_cone(adaptor: Any) -> list[float]:
+    shape = adaptor.Cone()
+    return _described(CONE, shape.Position(), shape.Apex(), shape.SemiAngle())
+
+
+def _of_ball(adaptor: Any) -> list[float]:
+    shape = adaptor.Sphere()
+    return _described(SPHERE, shape.Position(), shape.Location(), shape.Radius())
+
+
+def _of_torus(adaptor: Any) -> list[float]:
+    shape = adaptor.Torus()
+    position = shape.Position()
+    return _described(TORUS, position, position.Location(), shape.MajorRadius(), shape.MinorRadius())
+
+
+_DESCRIBED = {"Plane": _of_plane, "Cylinder": _of_cylinder, "Cone": _of_cone, "Sphere": _of_ball, "Torus": _of_torus}
+"""What tells surfaces of one kind from each other, by what OpenCASCADE calls them."""
