@@ -29,8 +29,8 @@ TRUE_NORMAL_SINE = 1e-7
 Its surfaces are no farther apart at common edges than a ten millionth of their size."""
 
 SAME_SURFACE = 1e-6
-"""Two faces of a part whose radii, axes and middles differ by no more than this part of its extent, and their directions
-by no larger sine, lie on one surface: files hold six to twelve digits."""
+"""Two faces of a part lie on one surface where radii, axes and middles differ by no more than this part of its extent,
+and directions by no larger sine: files hold six to twelve digits."""
 
 SEWN_OF_EXTENT = 1e-5
 """Faces of a file without solids are joined along edges that are no farther apart than this part of all of it: a

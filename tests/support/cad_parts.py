@@ -208,7 +208,9 @@ def flange() -> Any:
 
 def bracket() -> Any:
     angle = fused(box(40, 30, 5), box(5, 30, 40))
-    return cut(filleted(angle, 2.0, lambda k: k % 5 == 0), rod(5, 20, 25, 15, -5), rod(5, 20, -5, 15, 25, way=(1, 0, 0)))
+    return cut(
+        filleted(angle, 2.0, lambda k: k % 5 == 0), rod(5, 20, 25, 15, -5), rod(5, 20, -5, 15, 25, way=(1, 0, 0))
+    )
 
 
 PARTS: dict[str, Callable[[], Any]] = {

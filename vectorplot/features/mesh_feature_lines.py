@@ -291,7 +291,9 @@ def smooth_contours(mesh: Mesh, sight: Sight, crease_angle_deg: float) -> Smooth
     smooth = apart_at_creases(mesh, crease_angle_deg)
     vertices, triangles = smooth.vertices, face_triangles(smooth).triangles
     normals = smooth_normals(vertices, triangles)
-    facing, met, part = _edge_on(vertices, triangles, normals, sight, ROUNDING_OF_TERMS)
+    facing = _facing(vertices, normals, sight, ROUNDING_OF_TERMS)
+    facing[~normals.any(axis=1)] = np.nan
+    met, part = _edge_on(triangles, facing)
     points = vertices[met.low] + part * (vertices[met.high] - vertices[met.low])
     for _ in range(CONTOUR_ROUNDS):
         points = _contour_evened(points, met.pairs)
@@ -304,10 +306,12 @@ def true_contours(mesh: Mesh, normals: Floats, sight: Sight, outward: float | No
     there, and on sharp edges themselves.
 
     outward: as of enclosed, of the mesh before it was taken apart.
+    Edge cases: where there is no normal, at the tip of a cone, contours end.
     Source: Vlachos, Peters, Boyd, Mitchell (2001), Curved PN triangles, section 3.1.
     """
     vertices = mesh.vertices
-    facing, met, part = _edge_on(vertices, face_triangles(mesh).triangles, normals, sight, TRUE_NORMAL_SINE)
+    facing = _facing(vertices, normals, sight, TRUE_NORMAL_SINE)
+    met, part = _edge_on(face_triangles(mesh).triangles, facing)
     low, high = vertices[met.low], vertices[met.high]
     way = high - low
     rises = (dot(way, normals[met.low])[:, None] * normals[met.low], dot(way, normals[met.high])[:, None])
@@ -319,17 +323,17 @@ def true_contours(mesh: Mesh, normals: Floats, sight: Sight, outward: float | No
     return _with_aside(mesh, normals, sight, facing, met, part, points, outward)
 
 
-def _edge_on(
-    vertices: Floats, triangles: Ints, normals: Floats, sight: Sight, zero: float
-) -> tuple[Floats, LevelSegments, Floats]:
-    """(v,) the cosines of normals with the view, NaN without a normal and 0 where they are no larger than zero; where
-    they are 0 between vertices, linear in triangles, and (k,1) at which part of each side."""
+def _facing(vertices: Floats, normals: Floats, sight: Sight, zero: float) -> Floats:
+    """(v,) the cosines of normals with the view, 0 where they are no larger than zero."""
     facing = dot(sight.ways(vertices)[0], normals)
-    facing = np.where(np.abs(facing) <= zero, 0.0, facing)
-    facing[~normals.any(axis=1)] = np.nan
+    return np.where(np.abs(facing) <= zero, 0.0, facing)
+
+
+def _edge_on(triangles: Ints, facing: Floats) -> tuple[LevelSegments, Floats]:
+    """Where cosines (v,) are 0 between vertices, linear in triangles, and (k,1) at which part of each side."""
     met = level_segments(triangles, facing)
     low, high = facing[met.low], facing[met.high]
-    return facing, met, (low / (low - high))[:, None]
+    return met, (low / (low - high))[:, None]
 
 
 def _with_aside(
@@ -346,7 +350,7 @@ def _with_aside(
     vertices, triangles = mesh.vertices, face_triangles(mesh).triangles
     far = _reach(vertices, triangles, normals)
     out = normals[met.low] + part * (normals[met.high] - normals[met.low])
-    out *= (np.maximum(far[met.low], far[met.high]) / norm(out))[:, None]
+    out *= (np.maximum(far[met.low], far[met.high]) / np.maximum(norm(out), LEAST_DIVISOR))[:, None]
     start, end = points[met.pairs[:, 0]], points[met.pairs[:, 1]]
     aside = 0.5 * (out[met.pairs[:, 0]] + out[met.pairs[:, 1]])
     if outward is None:

@@ -33,7 +33,10 @@ from vectorplot.tolerances import LEAST_DIVISOR, SAME_SURFACE, SEWN_OF_EXTENT
 from vectorplot.words import DRAWN, LineKind
 
 USUAL_TOLERANCE = 5e-5
-"""Triangles are no farther off their faces than this part of the diagonal of all that is read: 0.02 mm on a page A4."""
+"""Chords of edges are no farther off than this part of the diagonal of all that is read: 0.02 mm on a page A4."""
+
+INSIDE_FACES = 4.0
+"""Triangles may be so many times as far off their faces: contours lie on cubics, not on these."""
 
 WIDEST_TURN = 0.2
 """Neighbouring triangles of one face turn by no more than about this angle, in radians: 32 sides make a circle."""
@@ -48,7 +51,7 @@ MOST_DEPTH = 100
 """Assemblies in assemblies are followed so deep."""
 
 CAD_LINES = tuple(word for word in DRAWN if word != LineKind.INTERSECTION.word)
-"""What is drawn of parts where nothing is said: where parts only touch, as a pin in its bore, their triangles pierce."""
+"""What is drawn of parts where nothing is said: where parts touch, as a pin in its bore, their triangles pierce."""
 
 
 # Bodies, and what is drawn of them.
@@ -211,16 +214,18 @@ def _true_normals(body: CadBody, kinds: Ints, vertex: Ints, positions: Floats, k
     """The normals at the vertices of the mesh of triangles kept (t,), taken apart along sharp edges."""
     number = _united(body, kinds != EdgeKind.SHARP, np.arange(len(body.points)))
     first = np.unique(number, return_index=True)[1]
-    corners = number[body.triangles[kept]]
-    mesh = Mesh.from_triangles(positions[vertex[first]], corners)
+    corners, whole = number[body.triangles[kept]], vertex[first]
     normals = _sums(number, body.normals, len(first))
     none = ~normals.any(axis=1)
-    # At the tip of a cone and the pole of a ball triangles tell.
-    around = np.stack([np.bincount(corners.ravel(), np.repeat(part, 3), len(first)) for part in mesh.area_vectors.T], 1)
-    normals[none] = around[none]
+    if none.any():
+        # At the pole of a ball the triangles around it tell; at the tip of a cone there is none.
+        areas = Mesh.from_triangles(positions[whole], corners).area_vectors
+        around, size = _sums(corners.ravel(), np.repeat(areas, 3, axis=0), len(first)), norm(areas)
+        evenly = norm(around) >= np.cos(WIDEST_TURN) * np.bincount(corners.ravel(), np.repeat(size, 3), len(first))
+        normals[none & evenly] = around[none & evenly]
     normals /= np.maximum(norm(normals), LEAST_DIVISOR)[:, None]
-    several = np.bincount(vertex[first], minlength=len(positions)) > 1
-    return SurfaceNormals(mesh, normals, several[vertex[first]])
+    several = np.bincount(whole, minlength=len(positions)) > 1
+    return SurfaceNormals(Mesh.from_triangles(positions[whole], corners), normals, several[whole])
 
 
 def _sums(number: Ints, vectors: Floats, count: int) -> Floats:
@@ -235,6 +240,7 @@ BINDING = "OpenCASCADE (cadquery-ocp-novtk)"
 
 _SHAPE_SUFFIXES = (".brep",)
 _IGES_SUFFIXES = (".iges", ".igs")
+_NO_NAMES = ("=>[", "Open CASCADE STEP translator")
 
 
 def _occ(module: str) -> Any:
@@ -376,7 +382,7 @@ def _name_of(label: Any) -> str:
     if not label.FindAttribute(_occ("TDataStd").TDataStd_Name.GetID_s(), attribute):
         return ""
     name = str(attribute.Get().ToExtString()).strip()
-    return "" if name.startswith("=>[") else name
+    return "" if name.startswith(_NO_NAMES) else name
 
 
 def _looks_within(colours: Any, label: Any) -> Callable[[Any], _Look]:
@@ -472,7 +478,10 @@ def _items_of_part(part: _Part, distance: float, extent: float) -> list[Item]:
     for shape in [*solids, *sewn]:
         may_stop()
         _occ("BRepTools").BRepTools.Clean_s(shape)
-        _occ("BRepMesh").BRepMesh_IncrementalMesh(shape, distance, False, WIDEST_TURN, False)
+        fineness = _occ("IMeshTools").IMeshTools_Parameters()
+        fineness.Deflection, fineness.DeflectionInterior = distance, INSIDE_FACES * distance
+        fineness.Angle = fineness.AngleInterior = WIDEST_TURN
+        _occ("BRepMesh").BRepMesh_IncrementalMesh(shape, fineness)
         called, own = part.within(shape)
         name = called or part.name
         body, left = _body(shape, part.colour if own is None else own, part.within)
