@@ -68,6 +68,15 @@ class SurfaceNormals:
         length = norm(turned)[:, None]
         return SurfaceNormals(self.mesh.transformed(matrix), turned / np.where(length > 0.0, length, 1.0), self.on_edge)
 
+    def is_apart_of(self, mesh: Mesh) -> bool:
+        """Whether the faces are those of a mesh of triangles, taken apart along its sharp edges: each side has normals
+        of its own there."""
+        own = self.mesh
+        alike = mesh.is_triangular and len(own.corners) == len(mesh.corners)
+        if not alike or len(own.vertices) <= len(mesh.vertices):
+            return False
+        return bool((own.vertices[own.corners] == mesh.vertices[mesh.corners]).all())
+
     @cached_property
     def triangles(self) -> PlacedTriangles:
         """The triangles of the mesh: what was divided and cut since is looked up in them, item after item."""
