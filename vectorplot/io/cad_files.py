@@ -6,6 +6,7 @@ from __future__ import annotations
 import warnings
 from collections import defaultdict
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from enum import IntEnum
 from importlib import import_module
@@ -34,6 +35,9 @@ from vectorplot.words import DRAWN, LineKind
 
 USUAL_TOLERANCE = 5e-5
 """Chords of edges are no farther off than this part of the diagonal of all that is read: 0.02 mm on a page A4."""
+
+LEAST_TOLERANCE = 2e-6
+"""Finer ones take minutes to read."""
 
 INSIDE_FACES = 4.0
 """Triangles may be so many times as far off their faces: contours lie on cubics, not on these."""
@@ -240,6 +244,7 @@ BINDING = "OpenCASCADE (cadquery-ocp-novtk)"
 
 _SHAPE_SUFFIXES = (".brep",)
 _IGES_SUFFIXES = (".iges", ".igs")
+_BREP_BEGINS, _BEGINNING = (b"DBRep_DrawableShape", b"CASCADE Topology"), 256
 _NO_NAMES = ("=>[", "Open CASCADE STEP translator")
 
 
@@ -247,13 +252,16 @@ def _occ(module: str) -> Any:
     return import_module(f"OCP.{module}")
 
 
-def cad_scene(path: Path, tolerance: float | None = None) -> Scene:
+def cad_scene(path: Path, tolerance: float = USUAL_TOLERANCE) -> Scene:
     """The bodies in a STEP, IGES or BREP file, in millimetres, each an item with the names and colours of the file;
-    those of one part are a group. tolerance: how far triangles may be off curved faces, as part of the diagonal of all
-    that is read; None: USUAL_TOLERANCE.
+    those of one part are a group. tolerance: how far chords of edges may be off, as part of the diagonal of all that is
+    read; no less than LEAST_TOLERANCE counts.
 
-    Errors: InputError where OpenCASCADE is not installed, and for a file that it cannot read or that holds no faces.
+    Errors: InputError where OpenCASCADE is not installed, for a file that it cannot read or that holds no faces, and
+    for a tolerance that is not positive.
     """
+    if not 0.0 < tolerance < np.inf:
+        raise InputError(f"a tolerance of {tolerance:g}: expected a positive part of the extent")
     name = shown(path)
     try:
         _occ("TopoDS")
@@ -261,11 +269,12 @@ def cad_scene(path: Path, tolerance: float | None = None) -> Scene:
         raise not_installed(f"{name}: a file of a CAD system", BINDING, "step") from None
     suffix = path.suffix.lower()
     try:
-        if suffix in _SHAPE_SUFFIXES:
-            parts = _parts_of_shape(_read_shape(path), path.stem)
-        else:
-            parts = _read_document(path, suffix in _IGES_SUFFIXES)
-        return _scene(parts, USUAL_TOLERANCE if tolerance is None else tolerance)
+        with _quietly():
+            if suffix in _SHAPE_SUFFIXES:
+                parts = _parts_of_shape(_read_shape(path), path.stem)
+            else:
+                parts = _read_document(path, suffix in _IGES_SUFFIXES)
+            return _scene(parts, max(tolerance, LEAST_TOLERANCE))
     except InputError as error:
         raise (error if error.file else InputError(error.cause, file=name)) from None
     except MemoryError:
@@ -295,6 +304,24 @@ class _Numbers:
         return found
 
 
+@contextmanager
+def _quietly() -> Iterator[None]:
+    """Nothing of what OpenCASCADE says about its work goes to standard output, where a picture may go."""
+    messenger = _occ("Message").Message.DefaultMessenger_s()
+    printers = _listed(messenger.Printers())
+    for printer in printers:
+        messenger.RemovePrinter(printer)
+    try:
+        yield
+    finally:
+        for printer in printers:
+            messenger.AddPrinter(printer)
+
+
+def _listed(sequence: Any) -> list[Any]:
+    return [sequence.Value(number) for number in range(1, sequence.Length() + 1)]
+
+
 _Look = tuple[str, Floats | None]
 """A name, which may be empty, and red, green, blue and opacity (4,), if they are known."""
 
@@ -312,6 +339,9 @@ class _Part:
 
 def _read_shape(path: Path) -> Any:
     """The shape in a BREP file."""
+    with path.open("rb") as file:
+        if not file.read(_BEGINNING).lstrip().startswith(_BREP_BEGINS):
+            raise InputError("not a BREP file: it does not begin as one")
     shape = _occ("TopoDS").TopoDS_Shape()
     if not _occ("BRepTools").BRepTools.Read_s(shape, str(path), _occ("BRep").BRep_Builder()) or shape.IsNull():
         raise InputError("not a BREP file that OpenCASCADE can read")
@@ -345,7 +375,7 @@ def _labels(fill: Callable[[Any], object]) -> list[Any]:
     except AttributeError:
         labels = _occ("collections").Sequence_TDF_Label()
     fill(labels)
-    return [labels.Value(number) for number in range(1, labels.Length() + 1)]
+    return _listed(labels)
 
 
 def _parts_of_document(document: Any, stem: str) -> list[_Part]:
