@@ -3,8 +3,9 @@ fine triangles of their faces; which edges are sharp, tangent or seams, the norm
 
 from __future__ import annotations
 
+import sys
 import warnings
-from collections import defaultdict
+from collections import Counter, defaultdict
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
@@ -27,7 +28,9 @@ from vectorplot.io.material_library import looks_of_colours
 from vectorplot.io.mesh_file import shown
 from vectorplot.io.read_mesh import with_looks
 from vectorplot.scene.extent import check_range
+from vectorplot.scene.face_looks import FaceLooks
 from vectorplot.scene.item import Item, SurfaceNormals
+from vectorplot.scene.material import Material
 from vectorplot.scene.scene import Scene, together
 from vectorplot.scene.surface_lines import SurfaceLines
 from vectorplot.tolerances import LEAST_DIVISOR, SAME_SURFACE, SEWN_OF_EXTENT
@@ -156,7 +159,7 @@ def _on_one_surface(body: CadBody, one: Ints, two: Ints) -> Bools:
     return np.asarray((a[:, 0] > 0.0) & (a[:, 0] == b[:, 0]) & ~turned & (off <= near) & (sizes <= near))
 
 
-def body_item(name: str, body: CadBody, group: str = "") -> Item:
+def body_item(name: str, body: CadBody) -> Item:
     """The item of a body: a mesh without gaps along its edges, of which the sharp and the tangent edges are drawn, and
     contours where the normals of its surfaces say.
 
@@ -172,13 +175,28 @@ def body_item(name: str, body: CadBody, group: str = "") -> Item:
     positions = body.points[place]
     mesh = Mesh.from_triangles(positions, corners[kept])
     ends = [positions[vertex[own]] for own in (_segments(body, kinds == kind) for kind in EdgeKind)]
-    item = Item(name, mesh, group=group, default_lines=CAD_LINES, drawn_edges=ends[EdgeKind.SHARP])
-    item = with_looks(item, looks_of_colours(mesh, body.shares[body.face[kept]]))
+    item = Item(name, mesh, default_lines=CAD_LINES, drawn_edges=ends[EdgeKind.SHARP])
+    item = _with_one_colour(with_looks(item, looks_of_colours(mesh, body.shares[body.face[kept]])))
     if body.is_flat:
         return item
     normals = _true_normals(body, kinds, vertex, positions, kept)
     return replace(
         item, tangent_edges=ends[EdgeKind.TANGENT], normals=normals, curves=SurfaceLines(smooth_contours=True)
+    )
+
+
+def _with_one_colour(item: Item) -> Item:
+    """An item all of whose faces have looks of their own in the look of most of them, which the others have not."""
+    looks = item.face_looks
+    if looks is None or (looks.of_face < 0).any():
+        return item
+    most = int(np.bincount(looks.of_face).argmax())
+    rest, own = np.where(looks.of_face == most, -1, looks.of_face), looks.looks[most]
+    material = item.material if own.material is None else own.material
+    # Opaque faces of a clear body say so.
+    kept = tuple(replace(one, material=one.material or Material()) for one in looks.looks)
+    return replace(
+        item, colour=own.colour or item.colour, material=material, face_looks=FaceLooks(looks.mesh, kept, rest)
     )
 
 
@@ -254,8 +272,8 @@ def _occ(module: str) -> Any:
 
 def cad_scene(path: Path, tolerance: float = USUAL_TOLERANCE) -> Scene:
     """The bodies in a STEP, IGES or BREP file, in millimetres, each an item with the names and colours of the file;
-    those of one part are a group. tolerance: how far chords of edges may be off, as part of the diagonal of all that is
-    read; no less than LEAST_TOLERANCE counts.
+    those of one part, or of one assembly in the whole, are a group. tolerance: how far chords of edges may be off, as
+    part of the diagonal of all that is read; no less than LEAST_TOLERANCE counts.
 
     Errors: InputError where OpenCASCADE is not installed, for a file that it cannot read or that holds no faces, and
     for a tolerance that is not positive.
@@ -271,7 +289,7 @@ def cad_scene(path: Path, tolerance: float = USUAL_TOLERANCE) -> Scene:
     try:
         with _quietly():
             if suffix in _SHAPE_SUFFIXES:
-                parts = _parts_of_shape(_read_shape(path), path.stem)
+                parts = [_Part(_read_shape(path), _nowhere(), path.stem)]
             else:
                 parts = _read_document(path, suffix in _IGES_SUFFIXES)
             return _scene(parts, max(tolerance, LEAST_TOLERANCE))
@@ -328,13 +346,15 @@ _Look = tuple[str, Floats | None]
 
 @dataclass(frozen=True, eq=False)
 class _Part:
-    """A shape as it stands alone, where it stands, its name and colour (4,), and those of faces and solids in it."""
+    """A shape as it stands alone, where it stands, its name and colour (4,), the assembly in the whole that it belongs
+    to, and the names and colours of faces and solids in it."""
 
     shape: Any
     location: Any
     name: str
-    colour: Floats | None
-    within: Callable[[Any], _Look]
+    colour: Floats | None = None
+    group: str = ""
+    within: Callable[[Any], _Look] = lambda _: ("", None)
 
 
 def _read_shape(path: Path) -> Any:
@@ -346,11 +366,6 @@ def _read_shape(path: Path) -> Any:
     if not _occ("BRepTools").BRepTools.Read_s(shape, str(path), _occ("BRep").BRep_Builder()) or shape.IsNull():
         raise InputError("not a BREP file that OpenCASCADE can read")
     return shape
-
-
-def _parts_of_shape(shape: Any, name: str, colour: Floats | None = None) -> list[_Part]:
-    """One part, without names and colours of what it is made of."""
-    return [_Part(shape, _occ("TopLoc").TopLoc_Location(), name, colour, lambda _: ("", None))]
 
 
 def _read_document(path: Path, iges: bool) -> list[_Part]:
@@ -383,11 +398,10 @@ def _parts_of_document(document: Any, stem: str) -> list[_Part]:
     xcaf = _occ("XCAFDoc")
     tools, shapes = xcaf.XCAFDoc_DocumentTool, xcaf.XCAFDoc_ShapeTool
     tool, colours = tools.ShapeTool_s(document.Main()), tools.ColorTool_s(document.Main())
-    found = list[_Part]()
-    nowhere = _occ("TopLoc").TopLoc_Location()
-    waiting = [(label, nowhere, None, 0) for label in reversed(_labels(tool.GetFreeShapes))]
+    found, taken = list[_Part](), Counter[str]()
+    waiting = [(label, _nowhere(), None, 0, "") for label in reversed(_labels(tool.GetFreeShapes))]
     while waiting:
-        label, location, colour, depth = waiting.pop()
+        label, location, colour, depth, group = waiting.pop()
         if depth > MOST_DEPTH:
             raise InputError(f"assemblies are more than {MOST_DEPTH} deep")
         own, product = _colour_of(colours, label), label
@@ -395,22 +409,38 @@ def _parts_of_document(document: Any, stem: str) -> list[_Part]:
             location = location.Multiplied(shapes.GetLocation_s(label))
             product = _occ("TDF").TDF_Label()
             shapes.GetReferredShape_s(label, product)
-        # What an assembly says of its parts goes before what they say themselves.
-        colour = next((one for one in (colour, own, _colour_of(colours, product)) if one is not None), None)
-        if shapes.IsAssembly_s(product):
-            inside = _labels(lambda labels, product=product: shapes.GetComponents_s(product, labels))
-            waiting += [(one, location, colour, depth + 1) for one in reversed(inside)]
-            continue
+        colour = next((one for one in (own, _colour_of(colours, product), colour) if one is not None), None)
         name = _name_of(product) or _name_of(label) or stem
-        found.append(_Part(shapes.GetShape_s(product), location, name, colour, _looks_within(colours, product)))
+        if shapes.IsAssembly_s(product):
+            # What moves as one is an assembly in the whole, with all that is in it.
+            group = group or (_told_apart(name, taken) if depth else "")
+            inside = _labels(lambda labels, product=product: shapes.GetComponents_s(product, labels))
+            waiting += [(one, location, colour, depth + 1, group) for one in reversed(inside)]
+            continue
+        within = _looks_within(colours, product)
+        found.append(_Part(shapes.GetShape_s(product), location, name, colour, group, within))
     return found
+
+
+def _nowhere() -> Any:
+    """The location of what stays where it is."""
+    return _occ("TopLoc").TopLoc_Location()
+
+
+def _told_apart(name: str, taken: Counter[str]) -> str:
+    """A name, with a number behind it where it was taken before."""
+    taken[name] += 1
+    return name if taken[name] == 1 else f"{name} {taken[name]}"
 
 
 def _name_of(label: Any) -> str:
     """What a label is called; nothing for names that only number it."""
-    attribute = _occ("TDataStd").TDataStd_Name()
-    if not label.FindAttribute(_occ("TDataStd").TDataStd_Name.GetID_s(), attribute):
+    names = _occ("TDataStd").TDataStd_Name
+    # The binding does not survive asking for an attribute that is not there.
+    if not label.IsAttribute(names.GetID_s()):
         return ""
+    attribute = names()
+    label.FindAttribute(names.GetID_s(), attribute)
     name = str(attribute.Get().ToExtString()).strip()
     return "" if name.startswith(_NO_NAMES) else name
 
@@ -428,9 +458,76 @@ def _colour_of(colours: Any, label: Any) -> Floats | None:
     kinds, rgba = _occ("XCAFDoc").XCAFDoc_ColorType, _occ("Quantity").Quantity_ColorRGBA()
     for kind in (kinds.XCAFDoc_ColorSurf, kinds.XCAFDoc_ColorGen):
         if colours.GetColor_s(label, kind, rgba):
-            srgb = rgba.GetRGB().Values(_occ("Quantity").Quantity_TypeOfColor.Quantity_TOC_sRGB)
-            return np.array([*srgb, rgba.Alpha()])
+            return _shares(rgba)
     return None
+
+
+def _shares(rgba: Any) -> Floats:
+    srgb = rgba.GetRGB().Values(_occ("Quantity").Quantity_TypeOfColor.Quantity_TOC_sRGB)
+    return np.array([*srgb, rgba.Alpha()])
+
+
+# Objects of libraries that OpenCASCADE is below of: build123d, CadQuery.
+
+
+def cad_object_scene(shown: Any, name: str = "part") -> Scene | None:
+    """The scene of a shape of OpenCASCADE, or of an object of build123d or CadQuery, known by what it has: a shape that
+    is wrapped, the values of a workplane, the shapes of an assembly, the part of a builder. None for anything else; the
+    object stays as it was.
+
+    Errors: InputError for one without faces.
+    """
+    if "OCP" not in sys.modules:
+        return None
+    parts = _parts_of_object(shown, name)
+    if not parts:
+        return None
+    with _quietly():
+        return _scene(parts, USUAL_TOLERANCE)
+
+
+def _parts_of_object(shown: Any, name: str) -> list[_Part]:
+    shape, taken, found = _wrapped(shown), Counter[str](), list[_Part]()
+    if callable(getattr(shown, "vals", None)):
+        return [part for value in shown.vals() for part in _parts_of_object(value, name)]
+    if callable(getattr(shown, "toCompound", None)) and hasattr(shown, "children"):
+        groups = dict[str, str]()
+        for inner, path, location, colour in shown:
+            # Of an assembly a/b/c, which need have no b, b is what moves as one.
+            _, *inside, own = ["", *path.split("/")] if "/" not in path else path.split("/")
+            key = inside[0] if inside else ""
+            if key not in groups:
+                groups[key] = _told_apart(key, taken) if key else ""
+            shares = None if colour is None else _shares(colour.wrapped)
+            found.append(_Part(_copied(inner.wrapped), location.wrapped, own, shares, groups[key]))
+        return found
+    if shape is None:
+        inner = next((one for word in ("part", "sketch") if (one := getattr(shown, word, None)) is not None), None)
+        return [] if inner is None or _wrapped(inner) is None else _parts_of_object(inner, name)
+    waiting: list[tuple[Any, Any, Floats | None, int, str]] = [(shown, _nowhere(), None, 0, "")]
+    while waiting:
+        one, location, colour, depth, group = waiting.pop()
+        own = getattr(getattr(one, "color", None), "wrapped", None)
+        colour = colour if own is None else _shares(own)
+        label, children = getattr(one, "label", "") or name, getattr(one, "children", ())
+        if not children:
+            found.append(_Part(_copied(_wrapped(one)), location, str(label), colour, group))
+            continue
+        group = group or (_told_apart(str(label), taken) if depth else "")
+        location = location.Multiplied(_wrapped(one).Location())
+        waiting += [(child, location, colour, depth + 1, group) for child in reversed(children)]
+    return found
+
+
+def _wrapped(shown: Any) -> Any:
+    """The shape of OpenCASCADE that something is or wraps; None for what is none."""
+    kind = _occ("TopoDS").TopoDS_Shape
+    return next((one for one in (shown, getattr(shown, "wrapped", None)) if isinstance(one, kind)), None)
+
+
+def _copied(shape: Any) -> Any:
+    """A shape that can be divided into triangles without a change of the given one."""
+    return _occ("BRepBuilderAPI").BRepBuilderAPI_Copy(shape, False, False).Shape()
 
 
 # Parts -> bodies -> items.
@@ -449,13 +546,16 @@ def _scene(parts: Sequence[_Part], tolerance: float) -> Scene:
         raise InputError("it holds no faces")
     check_range(np.array([every.min(axis=0), every.max(axis=0)]))
     extent = float(norm(np.ptp(every, axis=0)))
-    items, triangles = list[Item](), 0
+    items, triangles, taken = list[Item](), 0, Counter(part.group for part in parts)
     for number, part, matrix in zip(numbers, parts, matrices, strict=True):
         may_stop()
         key = number, b"" if part.colour is None else part.colour.tobytes()
         if key not in made:
             made[key] = _items_of_part(part, tolerance * extent, extent)
-        items += made[key] if (matrix == np.eye(4)).all() else [item.transformed(matrix) for item in made[key]]
+        several = len(made[key]) > 1 and not part.group
+        group = _told_apart(part.name, taken) if several else part.group
+        own = [replace(item, group=group) for item in made[key]]
+        items += own if (matrix == np.eye(4)).all() else [item.transformed(matrix) for item in own]
         triangles += sum(item.mesh.face_count for item in made[key])
         if triangles > MOST_TRIANGLES:
             raise InputError(f"its parts take more than {MOST_TRIANGLES} triangles: allow a coarser tolerance")
@@ -499,12 +599,12 @@ def _explored(shape: Any, kind: str, outside: str = "SHAPE") -> Iterator[Any]:
 
 
 def _items_of_part(part: _Part, distance: float, extent: float) -> list[Item]:
-    """The items of a part where it stands alone, those of several bodies in one group; distance: how far triangles may
-    be off; extent: of all that is read."""
+    """The items of a part where it stands alone; distance: how far chords of edges may be off; extent: of all that is
+    read."""
     solids = list(_explored(part.shape, "SOLID"))
     free = list(_explored(part.shape, "FACE", outside="SOLID"))
     sewn = _sewn(free, SEWN_OF_EXTENT * extent) if free else []
-    items, group = list[Item](), part.name if len(solids) + len(sewn) > 1 else ""
+    items = list[Item]()
     for shape in [*solids, *sewn]:
         may_stop()
         _occ("BRepTools").BRepTools.Clean_s(shape)
@@ -519,7 +619,7 @@ def _items_of_part(part: _Part, distance: float, extent: float) -> list[Item]:
             text = f"{name}: {left} faces could not be divided into triangles: they are left out"
             warnings.warn(text, InputWarning, stacklevel=2)
         if len(body.triangles):
-            items.append(body_item(name, body, group))
+            items.append(body_item(name, body))
     return items
 
 
