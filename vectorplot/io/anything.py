@@ -139,15 +139,15 @@ def _scene_of(shown: Any, around: tuple[object, ...]) -> Scene:
         from vectorplot.io.terrain_files import scene_of_array
 
         return scene_of_array(shown)
-    item = _item(shown)
-    if item is not None:
-        return Scene((item,))
     # Only where a shape of OpenCASCADE can be, it is looked for.
     if "OCP" in sys.modules:
         from vectorplot.io.cad_files import cad_object_scene
 
         if (parts := cad_object_scene(shown)) is not None:
             return parts
+    item = _item(shown)
+    if item is not None:
+        return Scene((item,))
     if isinstance(shown, Mapping):
         return together([_named(str(name), _scene_of(one, (*around, shown))) for name, one in shown.items()])
     dump = getattr(shown, "dump", None)

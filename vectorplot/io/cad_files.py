@@ -470,7 +470,7 @@ def _shares(rgba: Any) -> Floats:
 # Objects of libraries that OpenCASCADE is below of: build123d, CadQuery.
 
 
-def cad_object_scene(shown: Any, name: str = "part") -> Scene | None:
+def cad_object_scene(shown: Any) -> Scene | None:
     """The scene of a shape of OpenCASCADE, or of an object of build123d or CadQuery, known by what it has: a shape that
     is wrapped, the values of a workplane, the shapes of an assembly, the part of a builder. None for anything else; the
     object stays as it was.
@@ -479,11 +479,15 @@ def cad_object_scene(shown: Any, name: str = "part") -> Scene | None:
     """
     if "OCP" not in sys.modules:
         return None
-    parts = _parts_of_object(shown, name)
+    name = type(shown).__name__
+    parts = _parts_of_object(shown, name.lower())
     if not parts:
         return None
-    with _quietly():
-        return _scene(parts, USUAL_TOLERANCE)
+    try:
+        with _quietly():
+            return _scene(parts, USUAL_TOLERANCE)
+    except InputError as error:
+        raise InputError(f"{name}: {error.cause}") from None
 
 
 def _parts_of_object(shown: Any, name: str) -> list[_Part]:
