@@ -140,7 +140,7 @@ def _scene_of(shown: Any, around: tuple[object, ...]) -> Scene:
 
         return scene_of_array(shown)
     # Only where a shape of OpenCASCADE can be, it is looked for.
-    if "OCP" in sys.modules:
+    if sys.modules.get("OCP") is not None:
         from vectorplot.io.cad_files import cad_object_scene
 
         if (parts := cad_object_scene(shown)) is not None:
