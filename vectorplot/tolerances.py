@@ -28,9 +28,9 @@ TRUE_NORMAL_SINE = 1e-7
 """Normals that a CAD system tells are wrong by less: a face that makes a smaller angle with the view is seen edge-on.
 Its surfaces are no farther apart at common edges than a ten millionth of their size."""
 
-SAME_SURFACE = 1e-6
-"""Two faces of a part lie on one surface where radii, axes and middles differ by no more than this part of its extent,
-and directions by no larger sine: files hold six to twelve digits."""
+NO_CAD_NORMAL = 1e-6
+"""Where both parameter lines of a face of a part span an area no larger than this part of what the longest ones of the
+face could, its surface has no normal there: at the tip of a cone, the pole of a ball."""
 
 SEWN_OF_EXTENT = 1e-5
 """Faces of a file without solids are joined along edges that are no farther apart than this part of all of it: a

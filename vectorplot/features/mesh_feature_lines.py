@@ -348,7 +348,7 @@ def _with_aside(
 ) -> SmoothContours:
     """The segments between points (k,3) of contours on the sides of faces, and which way leads out of the shape."""
     vertices, triangles = mesh.vertices, face_triangles(mesh).triangles
-    far = _reach(vertices, triangles, normals)
+    far = reaches(vertices, triangles, normals)
     out = normals[met.low] + part * (normals[met.high] - normals[met.low])
     out *= (np.maximum(far[met.low], far[met.high]) / np.maximum(norm(out), LEAST_DIVISOR))[:, None]
     start, end = points[met.pairs[:, 0]], points[met.pairs[:, 1]]
@@ -373,7 +373,7 @@ def _contour_evened(points: Floats, pairs: Ints) -> Floats:
     return result
 
 
-def _reach(vertices: Floats, triangles: Ints, normals: Floats) -> Floats:
+def reaches(vertices: Floats, triangles: Ints, normals: Floats) -> Floats:
     """(v,) how far faces around each vertex rise above the shape: as far as its normals say that their sides leave it,
     which those along a straight line of it do not, however long they are."""
     corners, own = vertices[triangles], normals[triangles]

@@ -33,7 +33,7 @@ from vectorplot.scene.item import Item, SurfaceNormals
 from vectorplot.scene.material import Material
 from vectorplot.scene.scene import Scene, together
 from vectorplot.scene.surface_lines import SurfaceLines
-from vectorplot.tolerances import LEAST_DIVISOR, SAME_SURFACE, SEWN_OF_EXTENT
+from vectorplot.tolerances import LEAST_DIVISOR, NO_CAD_NORMAL, SEWN_OF_EXTENT
 from vectorplot.words import DRAWN, LineKind
 
 USUAL_TOLERANCE = 5e-5
@@ -50,6 +50,10 @@ WIDEST_TURN = 0.2
 
 TANGENT_COSINE = float(np.cos(np.radians(1.0)))
 """Faces that meet at a smaller angle everywhere along an edge are tangent to each other there."""
+
+BENT_ALIKE = 0.01
+"""Mean curvatures that differ by no more than this part of the larger one, or of that of a ball as large as the body,
+are those of one shape: nobody sees a line there."""
 
 MOST_TRIANGLES = 10_000_000
 """A scene with more triangles is refused."""
@@ -70,18 +74,18 @@ class EdgeKind(IntEnum):
     SHARP = 0
     """Its faces meet at an angle; or it has one face only, or more than two."""
     TANGENT = 1
-    """Two faces meet without a crease."""
+    """Two faces meet without a crease, but bend otherwise on both sides."""
     SEAM = 2
-    """A face meets itself without a crease, or another face of the same surface does: nothing shows there."""
+    """A face goes on in itself or in another one, as halves of a cylinder do: nothing shows there."""
 
 
 @dataclass(frozen=True, eq=False)
 class CadBody:
     """A body as a CAD system tells it, each face with points of its own.
 
-    points (n,3); normals (n,3): of the surfaces there, outwards, zero where there is none; triangles (t,3): of points,
-    counter-clockwise from outside; face (t,): of which face each is a part; surfaces (f,9): the surface of each face, a
-    number for its kind (0: one that is compared with none; 1: a plane), its direction, a point and two sizes; shares
+    points (n,3); normals (n,3): of the surfaces there, outwards, zero where there is none; bending (n,): their mean
+    curvatures, positive where they bend towards the normal, NaN where there is none; triangles (t,3): of points,
+    counter-clockwise from outside; face (t,): of which face each is a part; flat (f,): the faces in planes; shares
     (f,4): red, green, blue and opacity of each face, NaN where it has none of its own. Uses of edges by faces: nodes
     (k,): the points along each, offsets (u+1,), edge (u,): the number of the edge, and user (u,): the face; two uses of
     an edge list their points in the same direction.
@@ -89,26 +93,15 @@ class CadBody:
 
     points: Floats
     normals: Floats
+    bending: Floats
     triangles: Ints
     face: Ints
-    surfaces: Floats
+    flat: Bools
     shares: Floats
     nodes: Ints
     offsets: Ints
     edge: Ints
     user: Ints
-
-    @property
-    def is_flat(self) -> bool:
-        """Whether all faces are planes."""
-        return bool((self.surfaces[:, 0] == PLANE).all())
-
-
-PLANE, CYLINDER, CONE, SPHERE, TORUS = 1.0, 2.0, 3.0, 4.0, 5.0
-"""Kinds of surfaces that are told from each other by their sizes; 0 stands for all others."""
-
-WIDTH = 9
-"""Numbers that describe a surface."""
 
 
 def edge_kinds(body: CadBody) -> Ints:
@@ -119,7 +112,8 @@ def edge_kinds(body: CadBody) -> Ints:
     if not len(edge):
         return kinds
     size = np.diff(body.offsets)[one]
-    first, second = (body.normals[body.nodes[ragged.ranges(body.offsets[use], size)]] for use in (one, two))
+    along = [body.nodes[ragged.ranges(body.offsets[use], size)] for use in (one, two)]
+    first, second = (body.normals[points] for points in along)
     place, owner = ragged.place(size), ragged.owner(size)
     # At the ends of an edge other faces may make corners.
     known = first.any(axis=1) & second.any(axis=1)
@@ -127,8 +121,13 @@ def edge_kinds(body: CadBody) -> Ints:
     cosine = np.where(known & inner, dot(first, second), 1.0)
     smooth = np.minimum.reduceat(cosine, ragged.starts(size)) >= TANGENT_COSINE
     smooth &= np.logical_or.reduceat(known & inner, ragged.starts(size))
-    same = (body.user[one] == body.user[two]) | _on_one_surface(body, body.user[one], body.user[two])
-    kinds[edge] = np.where(smooth, np.where(same, int(EdgeKind.SEAM), int(EdgeKind.TANGENT)), int(EdgeKind.SHARP))
+    bent, bent_too = (body.bending[points] for points in along)
+    # With one tangent plane along all of an edge, surfaces bend alike there where their mean curvatures are alike.
+    straight = 1.0 / max(float(norm(np.ptp(body.points, axis=0))), LEAST_DIVISOR)
+    most = np.maximum(np.maximum(np.abs(bent), np.abs(bent_too)), straight)
+    off = known & inner & (np.abs(bent - bent_too) > BENT_ALIKE * most)
+    alike = (body.user[one] == body.user[two]) | ~np.logical_or.reduceat(off, ragged.starts(size))
+    kinds[edge] = np.where(smooth, np.where(alike, int(EdgeKind.SEAM), int(EdgeKind.TANGENT)), int(EdgeKind.SHARP))
     return kinds
 
 
@@ -144,19 +143,6 @@ def _pairs_of_uses(body: CadBody, among: Bools) -> tuple[Ints, Ints, Ints]:
     size = np.diff(body.offsets)
     alike = size[one] == size[two]
     return edge[later][alike], one[alike], two[alike]
-
-
-def _on_one_surface(body: CadBody, one: Ints, two: Ints) -> Bools:
-    """(p,) whether pairs of faces are parts of one plane, cylinder, cone, ball or torus."""
-    a, b = body.surfaces[one], body.surfaces[two]
-    near = SAME_SURFACE * float(norm(np.ptp(body.points, axis=0)))
-    apart = b[:, 4:7] - a[:, 4:7]
-    # Points of planes and cylinders may lie anywhere on them, or on their axes.
-    beside = norm(cross(apart, a[:, 1:4]))
-    off = np.where(a[:, 0] == PLANE, np.abs(dot(apart, a[:, 1:4])), np.where(a[:, 0] == CYLINDER, beside, norm(apart)))
-    turned = (norm(cross(a[:, 1:4], b[:, 1:4])) > SAME_SURFACE) & (a[:, 0] != SPHERE)
-    sizes = np.abs(a[:, 7:] - b[:, 7:]).max(axis=1)
-    return np.asarray((a[:, 0] > 0.0) & (a[:, 0] == b[:, 0]) & ~turned & (off <= near) & (sizes <= near))
 
 
 def body_item(name: str, body: CadBody) -> Item:
@@ -177,7 +163,7 @@ def body_item(name: str, body: CadBody) -> Item:
     ends = [positions[vertex[own]] for own in (_segments(body, kinds == kind) for kind in EdgeKind)]
     item = Item(name, mesh, default_lines=CAD_LINES, drawn_edges=ends[EdgeKind.SHARP])
     item = _with_one_colour(with_looks(item, looks_of_colours(mesh, body.shares[body.face[kept]])))
-    if body.is_flat:
+    if body.flat.all():
         return item
     normals = _true_normals(body, kinds, vertex, positions, kept)
     return replace(
@@ -664,7 +650,7 @@ def _body(shape: Any, colour: Floats | None, within: Callable[[Any], _Look]) -> 
     none of their own."""
     edges, missing, start = _Numbers(), 0, 0
     points, normals, triangles = [np.zeros((0, 3))], [np.zeros((0, 3))], [np.zeros((0, 3), dtype=np.intp)]
-    surfaces, shares, counts = list[Floats](), list[Floats](), list[int]()
+    bending, flat, shares, counts = [np.zeros(0)], list[bool](), list[Floats](), list[int]()
     nodes, sizes, edge, user = [np.zeros(0, dtype=np.intp)], list[int](), list[int](), list[int]()
     tool = _occ("BRep").BRep_Tool
     for face in _explored(shape, "FACE"):
@@ -674,16 +660,17 @@ def _body(shape: Any, colour: Floats | None, within: Callable[[Any], _Look]) -> 
         if triangulation is None or not triangulation.NbTriangles():
             missing += 1
             continue
-        number, turned = len(surfaces), face.Orientation() == _occ("TopAbs").TopAbs_Orientation.TopAbs_REVERSED
+        number, turned = len(flat), face.Orientation() == _occ("TopAbs").TopAbs_Orientation.TopAbs_REVERSED
         matrix = _matrix(location)
         own = _moved(np.array([node.Coord() for node in triangulation.MapNodeArray()]), matrix)
         corners = np.array([one.Get() for one in triangulation.MapTriangleArray()], dtype=np.intp) - 1
-        surface, up = _surface(face, triangulation)
+        is_flat, up, bent = _surface(face, triangulation)
         points.append(own)
         normals.append(-up if turned else up)
+        bending.append(-bent if turned else bent)
         triangles.append(start + (corners[:, ::-1] if turned else corners))
         counts.append(len(corners))
-        surfaces.append(surface)
+        flat.append(is_flat)
         given = within(face)[1]
         given = colour if given is None else given
         shares.append(np.full(4, np.nan) if given is None else given)
@@ -698,9 +685,10 @@ def _body(shape: Any, colour: Floats | None, within: Callable[[Any], _Look]) -> 
     body = CadBody(
         np.concatenate(points),
         np.concatenate(normals),
+        np.concatenate(bending),
         np.concatenate(triangles),
         ragged.owner(counts),
-        np.array(surfaces).reshape(-1, WIDTH),
+        np.array(flat, dtype=np.bool_),
         np.array(shares).reshape(-1, 4),
         np.concatenate(nodes),
         ragged.offsets(sizes),
@@ -710,62 +698,25 @@ def _body(shape: Any, colour: Floats | None, within: Callable[[Any], _Look]) -> 
     return body, missing
 
 
-def _surface(face: Any, triangulation: Any) -> tuple[Floats, Floats]:
-    """(WIDTH,) what surface a face lies on, as CadBody says, and (n,3) the unit normals at the points of its triangles,
-    to the left of v and before u."""
-    adaptor = _occ("BRepAdaptor").BRepAdaptor_Surface(face, False)
-    kind = str(adaptor.GetType()).rpartition("_")[2]
-    described = np.zeros(WIDTH)
-    made = _DESCRIBED.get(kind)
-    if made is not None:
-        described[:] = made(adaptor)
-    gp = _occ("gp")
-    point, along_u, along_v = gp.gp_Pnt(), gp.gp_Vec(), gp.gp_Vec()
+def _surface(face: Any, triangulation: Any) -> tuple[bool, Floats, Floats]:
+    """Whether a face is flat, and at the points (n,) of its triangles the unit normals (n,3), to the left of v and
+    before u, and the mean curvatures of its surface."""
+    gp, adaptor = _occ("gp"), _occ("BRepAdaptor").BRepAdaptor_Surface(face, False)
+    is_flat = str(adaptor.GetType()).endswith("_Plane")
     places = [place.Coord() for place in triangulation.MapUVNodeArray()]
-    partials = np.empty((len(places), 2, 3))
-    for row, (u, v) in enumerate(places[:1] if kind == "Plane" else places):
-        adaptor.D1(u, v, point, along_u, along_v)
-        partials[row] = along_u.Coord(), along_v.Coord()
-    if kind == "Plane":
-        partials[1:] = partials[0]
-    normals = cross(partials[:, 0], partials[:, 1])
-    length = norm(normals)
-    sizes = norm(partials)
+    point, derivatives = gp.gp_Pnt(), [gp.gp_Vec() for _ in ("u", "v", "uu", "vv", "uv")]
+    found = np.empty((len(places), 5, 3))
+    for row, (u, v) in enumerate(places[:1] if is_flat else places):
+        adaptor.D2(u, v, point, *derivatives)
+        found[row] = [one.Coord() for one in derivatives]
+    if is_flat:
+        found[1:] = found[0]
+    along_u, along_v = found[:, 0], found[:, 1]
+    normals, sizes = cross(along_u, along_v), norm(found[:, :2])
     # Where parameter lines meet in a point, or run along each other, there is no normal.
-    none = length <= SAME_SURFACE * sizes.max(axis=0, initial=0.0).prod()
-    return described, np.where(none[:, None], 0.0, normals / np.where(none, 1.0, length)[:, None])
-
-
-def _described(kind: float, frame: Any, point: Any, *sizes: float) -> list[float]:
-    """A kind, the direction of a frame, a point and sizes, as numbers."""
-    return [kind, *frame.Direction().Coord(), *point.Coord(), *sizes, *[0.0] * (2 - len(sizes))]
-
-
-def _of_plane(adaptor: Any) -> list[float]:
-    position = adaptor.Plane().Position()
-    return _described(PLANE, position, position.Location())
-
-
-def _of_cylinder(adaptor: Any) -> list[float]:
-    shape = adaptor.Cylinder()
-    return _described(CYLINDER, shape.Position(), shape.Position().Location(), shape.Radius())
-
-
-def _of_cone(adaptor: Any) -> list[float]:
-    shape = adaptor.Cone()
-    return _described(CONE, shape.Position(), shape.Apex(), shape.SemiAngle())
-
-
-def _of_ball(adaptor: Any) -> list[float]:
-    shape = adaptor.Sphere()
-    return _described(SPHERE, shape.Position(), shape.Location(), shape.Radius())
-
-
-def _of_torus(adaptor: Any) -> list[float]:
-    shape = adaptor.Torus()
-    position = shape.Position()
-    return _described(TORUS, position, position.Location(), shape.MajorRadius(), shape.MinorRadius())
-
-
-_DESCRIBED = {"Plane": _of_plane, "Cylinder": _of_cylinder, "Cone": _of_cone, "Sphere": _of_ball, "Torus": _of_torus}
-"""What tells surfaces of one kind from each other, by what OpenCASCADE calls them."""
+    none = norm(normals) <= NO_CAD_NORMAL * sizes.max(axis=0, initial=0.0).prod()
+    normals = np.where(none[:, None], 0.0, normals / np.where(none, 1.0, norm(normals))[:, None])
+    e, f, g = dot(along_u, along_u), dot(along_u, along_v), dot(along_v, along_v)
+    second_u, second_v, mixed = (dot(found[:, k], normals) for k in (2, 3, 4))
+    area = np.where(none, np.nan, 2.0 * (e * g - f * f))
+    return is_flat, normals, (e * second_v - 2.0 * f * mixed + g * second_u) / area

@@ -68,12 +68,11 @@ class SurfaceNormals:
         length = norm(turned)[:, None]
         return SurfaceNormals(self.mesh.transformed(matrix), turned / np.where(length > 0.0, length, 1.0), self.on_edge)
 
-    def is_apart_of(self, mesh: Mesh) -> bool:
-        """Whether the faces are those of a mesh of triangles, taken apart along its sharp edges: each side has normals
-        of its own there."""
+    def has_faces_of(self, mesh: Mesh) -> bool:
+        """Whether the faces are those of a mesh of triangles, one by one; along sharp edges they may be taken apart, so
+        that each side has normals of its own."""
         own = self.mesh
-        alike = mesh.is_triangular and len(own.corners) == len(mesh.corners)
-        if not alike or len(own.vertices) <= len(mesh.vertices):
+        if not mesh.is_triangular or len(own.corners) != len(mesh.corners):
             return False
         return bool((own.vertices[own.corners] == mesh.vertices[mesh.corners]).all())
 

@@ -159,10 +159,21 @@ def edge_lines(
         if find is _all_edges:
             edges, among = _listed_edges(scene, view, edges, item, wanted)
             kept &= among
-        start, end = edges.start[kept], edges.end[kept]
-        ends = view.points.take(start, axis=1), view.points.take(end, axis=1)
-        parts.append(straight_lines(*ends, edges.kind[kept], item[kept], edges.side[kept]))
+        edges = records.take(edges, kept)
+        ends = view.points.take(edges.start, axis=1), view.points.take(edges.end, axis=1)
+        lines = straight_lines(*ends, edges.kind, item[kept], edges.side)
+        if find is _all_edges and touching_parts(scene):
+            from vectorplot.visibility.polyhedra.smooth_lines import beside_flat_faces
+
+            lines = replace(lines, aside=beside_flat_faces(scene, view, asked, view.face_item[which], edges))
+        parts.append(lines)
     return joined_lines([*parts, *_added_edges(scene, view, kinds)])
+
+
+def touching_parts(scene: Scene) -> bool:
+    """Whether there are several items, and triangles stand for the smooth faces of some: where these touch others, as a
+    pin its bore, the triangles of both pierce."""
+    return len(scene.items) > 1 and any(item.normals is not None for item in scene.items)
 
 
 def _all_edges(faces: Faces, kinds: Collection[LineKind], crease_angle_deg: float) -> Edges:
