@@ -264,3 +264,77 @@ def write_step(shape: Any, path: Path) -> Path:
     controller.Transfer(shape, occ("STEPControl", "STEPControl_StepModelType").STEPControl_AsIs)
     controller.Write(str(path))
     return path
+
+
+def document() -> Any:
+    """An empty document for assemblies."""
+    text = occ("TCollection", "TCollection_ExtendedString")
+    made = occ("TDocStd", "TDocStd_Document")(text("BinXCAF"))
+    occ("XCAFApp", "XCAFApp_Application").GetApplication_s().NewDocument(text("BinXCAF"), made)
+    return made
+
+
+class Assembly:
+    """An assembly that is put together, and written as a STEP file."""
+
+    def __init__(self) -> None:
+        self.document = document()
+        tools = occ("XCAFDoc", "XCAFDoc_DocumentTool")
+        self.shapes = tools.ShapeTool_s(self.document.Main())
+        self.colours = tools.ColorTool_s(self.document.Main())
+
+    def named(self, label: Any, name: str) -> Any:
+        """A label with a name."""
+        text = occ("TCollection", "TCollection_ExtendedString")(name)
+        occ("TDataStd", "TDataStd_Name").Set_s(label, text)
+        return label
+
+    def coloured(self, label: Any, red: float, green: float, blue: float, opacity: float = 1.0) -> Any:
+        """A label with a colour."""
+        srgb = occ("Quantity", "Quantity_TypeOfColor").Quantity_TOC_sRGB
+        rgba = occ("Quantity", "Quantity_ColorRGBA")(occ("Quantity", "Quantity_Color")(red, green, blue, srgb), opacity)
+        self.colours.SetColor(label, rgba, occ("XCAFDoc", "XCAFDoc_ColorType").XCAFDoc_ColorSurf)
+        return label
+
+    def part(self, name: str, shape: Any) -> Any:
+        """A part with a name."""
+        return self.named(self.shapes.AddShape(shape, False), name)
+
+    def group(self, name: str, *parts: tuple[Any, tuple[float, float, float]]) -> Any:
+        """An assembly of parts, each at a place."""
+        label = self.named(self.shapes.NewShape(), name)
+        for part, (x, y, z) in parts:
+            step = occ("gp", "gp_Trsf")()
+            step.SetTranslation(occ("gp", "gp_Vec")(x, y, z))
+            self.shapes.AddComponent(label, part, occ("TopLoc", "TopLoc_Location")(step))
+        return label
+
+    def write(self, path: Path) -> Path:
+        """The file."""
+        self.shapes.UpdateAssemblies()
+        writer = occ("STEPCAFControl", "STEPCAFControl_Writer")()
+        writer.Transfer(self.document)
+        writer.Write(str(path))
+        return path
+
+
+def bearing(path: Path) -> Path:
+    """The bearing that the page on parts of CAD systems shows, as a STEP file."""
+    foot = filleted(box(120, 40, 14, (-60, -20, 0)), 8, lambda k: k in (0, 2, 4, 6))
+    house = cut(fused(foot, rod(28, 40, 0, -20, 40, way=(0, 1, 0)), box(56, 40, 40, (-28, -20, 0))))
+    slots = [rod(5.5, 20, x, 0, -1) for x in (-44, 44)]
+    body = cut(house, rod(18, 50, 0, -25, 40, way=(0, 1, 0)), *slots)
+    bush = cut(rod(18, 44, 0, -22, 40, way=(0, 1, 0)), rod(13, 60, 0, -30, 40, way=(0, 1, 0)))
+    shaft = chamfered(rod(13, 120, 0, -60, 40, way=(0, 1, 0)), 2)
+    hexagon = [(9 * math.cos(k * math.pi / 3), 9 * math.sin(k * math.pi / 3), 14) for k in range(6)]
+    bolt = fused(rod(5.5, 24, 0, 0, -10), prism(wire(hexagon), 0, 0, 7))
+    whole = Assembly()
+    house_part = whole.coloured(whole.part("housing", body), 0.35, 0.5, 0.6)
+    bush_part = whole.coloured(whole.part("bush", bush), 0.8, 0.6, 0.2)
+    shaft_part = whole.coloured(whole.part("shaft", shaft), 0.75, 0.75, 0.78)
+    bolt_part = whole.coloured(whole.part("bolt", bolt), 0.3, 0.3, 0.32)
+    turning = whole.group("shaft in bush", (bush_part, (0, 0, 0)), (shaft_part, (0, 0, 0)))
+    whole.group(
+        "bearing", (house_part, (0, 0, 0)), (turning, (0, 0, 0)), (bolt_part, (-44, 0, 0)), (bolt_part, (44, 0, 0))
+    )
+    return whole.write(path)

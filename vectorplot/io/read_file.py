@@ -18,7 +18,7 @@ _EXPORT_MESH = "export it as stl, obj, ply, off or glb"
 _NO_SHAPES = "it holds no shapes in space"
 
 _SUFFIXES = {
-    ".fcstd": ("a FreeCAD document", _EXPORT_MESH),
+    ".fcstd": ("a FreeCAD document", "export it as step, stl, obj, ply, off or glb"),
     ".scad": ("an OpenSCAD program", "export it from OpenSCAD as stl or off"),
     ".dxf": ("a DXF drawing", _EXPORT_MESH),
     ".dwg": ("a DWG drawing", _EXPORT_MESH),
