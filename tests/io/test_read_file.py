@@ -88,7 +88,11 @@ def test_a_moebius_band_is_kept_and_said(tmp_path: Path) -> None:
     [
         ("empty.obj", "", "the file is empty"),
         ("shape", "ISO-10303-21;", "a STEP file, which is not read; give its name the suffix .step"),
-        ("shape.fcstd", "PK\x03\x04", "a FreeCAD document, which is not read; export it as step, stl, obj, ply, off or glb"),
+        (
+            "shape.fcstd",
+            "PK\x03\x04",
+            "a FreeCAD document, which is not read; export it as step",
+        ),
         ("shape.SCAD", "cube([1,2,3]);", "an OpenSCAD program, which is not read"),
         (
             "turn.anim",

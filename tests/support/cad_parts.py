@@ -213,6 +213,8 @@ def bracket() -> Any:
     )
 
 
+WAVES = [(k * math.pi / 4, 12.0 + 5.0 * (k % 2)) for k in range(8)]
+
 PARTS: dict[str, Callable[[], Any]] = {
     "box": lambda: box(40, 30, 20),
     "box with a bore": lambda: cut(box(40, 30, 20), rod(7, 30, 20, 15, -1)),
@@ -228,7 +230,9 @@ PARTS: dict[str, Callable[[], Any]] = {
     "tee of equal rods": lambda: fused(rod(10, 60, 0, 0, -30), rod(10, 30, 0, 0, 0, way=(1, 0, 0))),
     "bored ball": lambda: cut(ball(20), rod(8, 50, 0, 0, -25)),
     "ball on a plate": lambda: fused(box(50, 50, 6, (-25, -25, -3)), ball(14, 0, 0, 10)),
-    "rounded tee": lambda: filleted(fused(rod(12, 50, 0, 0, -25), rod(6, 30, 0, 0, 0, way=(1, 0, 0))), 2, lambda k: k == 3),
+    "rounded tee": lambda: filleted(
+        fused(rod(12, 50, 0, 0, -25), rod(6, 30, 0, 0, 0, way=(1, 0, 0))), 2, lambda k: k == 3
+    ),
     "flange": flange,
     "bracket": bracket,
     "plate with bores": lambda: plate_with_bores(6),
@@ -238,7 +242,7 @@ PARTS: dict[str, Callable[[], Any]] = {
     "ruled loft": lambda: loft(square(15, 0), square(12, 30, 0.5), ruled=True),
     "loft to a circle": lambda: loft(circle(15, 0, 0, 0), circle(6, 3, 0, 20), circle(11, 0, 0, 40)),
     "prism of a spline": lambda: prism(
-        spline([(r * math.cos(t), r * math.sin(t), 0) for t, r in ((k * math.pi / 4, 12 + 5 * (k % 2)) for k in range(8))], True),
+        spline([(r * math.cos(t), r * math.sin(t), 0) for t, r in WAVES], True),
         0, 0, 20,
     ),
     "star": lambda: prism(wire(star(7, 20, 11)), 0, 0, 8),
