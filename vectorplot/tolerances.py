@@ -24,6 +24,18 @@ VERTICAL_SINE = 1e-15
 """A line of sight whose horizontal part is no longer is vertical: a few roundings of a unit vector, as a camera that
 looks down has azimuth 0 only then."""
 
+TRUE_NORMAL_SINE = 1e-7
+"""Normals that a CAD system tells are wrong by less: a face that makes a smaller angle with the view is seen edge-on.
+Its surfaces are no farther apart at common edges than a ten millionth of their size."""
+
+NO_CAD_NORMAL = 1e-6
+"""Where both parameter lines of a face of a part span an area no larger than this part of what the longest ones of the
+face could, its surface has no normal there: at the tip of a cone, the pole of a ball."""
+
+SEWN_OF_EXTENT = 1e-5
+"""Faces of a file without solids are joined along edges that are no farther apart than this part of all of it: a
+hundredth of a millimetre of a metre, as systems for surfaces have it."""
+
 NO_AZIMUTH_SINE = 1e-6
 """Near the zenith, below this sine, an azimuth has so few digits that the up vector says how a picture stands."""
 

@@ -6,6 +6,7 @@ import math
 import os
 import warnings
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, fields, replace
 from functools import partial, reduce, wraps
 from pathlib import Path
@@ -807,6 +808,24 @@ class Told:
         page = {} if self.page is None else {"page": page_from(self.page, scene)}
         return {"camera": camera, **page, **self.rest}
 
+    @property
+    def fineness(self) -> float | None:
+        """How far parts of CAD systems may be off, as part of their extent: as far as the picture may, where they fill
+        its page; None for pictures of pixels."""
+        from vectorplot.scene.scene import Scene
+
+        if self.page is None or "tolerance_mm" not in self.rest:
+            return None
+        page, allowed = page_from(self.page, Scene(())), self.rest["tolerance_mm"]
+        if self.rest.get("off_by") is not None:
+            from vectorplot.errors import InputError
+            from vectorplot.pictures.promises import off_by_of
+
+            # What is no error to keep, the verb itself says.
+            with suppress(InputError):
+                allowed = off_by_of(self.rest["off_by"], "mm", "shades").get("mm", allowed)
+        return float(allowed / math.hypot(page.width_mm, page.height_mm))
+
     def with_lines(self, scene: Scene) -> tuple[Scene, dict[str, Any]]:
         """A scene with the lines and the cuts that the user asked for, and the keywords of the verb's function, which
         draws them."""
@@ -921,7 +940,8 @@ def picture_verb(
                 warn_of_nothing(source, made, lambda: _why_nothing(verb.__name__, lined, keywords))
                 return made
 
-            source = Source(params["scene_file"], params["exaggeration"], upright=told.camera.says_where())
+            upright, fineness = told.camera.says_where(), told.fineness
+            source = Source(params["scene_file"], params["exaggeration"], upright=upright, tolerance=fineness)
             said = {"source": source, "format_": written, "picture": picture, "jobs": jobs, "overlaid": overlaid}
             beside = [] if params.get("certificate") is None else [_proof(params, told, source)]
             beside += [] if params.get("tiles") is None else tiles_beside(params, written)

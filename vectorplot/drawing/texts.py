@@ -51,8 +51,10 @@ class Texts:
 
     def take(self, which: Ints) -> Texts:
         """The texts with these numbers (k,), in this order."""
-        columns = self.points, self.size_mm, self.turn_deg, self.anchor, self.room_mm, self.hidden_by
-        return Texts(tuple(self.strings[k] for k in which.tolist()), *(column[which] for column in columns))
+        return Texts(
+            tuple(self.strings[k] for k in which.tolist()), self.points[which], self.size_mm[which], self.turn_deg[which],
+            self.anchor[which], self.room_mm[which], self.hidden_by[which],
+        )  # fmt: skip
 
     def moved(self, way: Floats) -> Texts:
         """The same, moved on the page by (2,)."""

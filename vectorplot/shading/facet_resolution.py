@@ -121,6 +121,11 @@ def _normals_of(item: Item) -> TrueNormals | None:
     known, points = item.normals, item.mesh.vertices
     if known is None or not len(points):
         return None
+    if len(known.mesh.vertices) > len(points) and known.has_faces_of(item.mesh):
+        order = item.mesh.corners, known.mesh.corners
+        normals, on_edge = np.zeros(points.shape), np.zeros(len(points), dtype=np.bool_)
+        normals[order[0]], on_edge[order[0]] = known.at_vertices[order[1]], known.on_edge[order[1]]
+        return TrueNormals(normals, on_edge, known.at_vertices[order[1]])
     place, corners, weights, _ = known.triangles.places(points)
     normals, on_edge = np.zeros(points.shape), np.ones(len(points), dtype=np.bool_)
     normals[place] = unit(np.einsum("kc,kcx->kx", weights, known.at_vertices[corners]))
