@@ -52,8 +52,8 @@ class Texts:
     def take(self, which: Ints) -> Texts:
         """The texts with these numbers (k,), in this order."""
         return Texts(
-            tuple(self.strings[k] for k in which.tolist()), self.points[which], self.size_mm[which], self.turn_deg[which],
-            self.anchor[which], self.room_mm[which], self.hidden_by[which],
+            tuple(self.strings[k] for k in which.tolist()), self.points[which], self.size_mm[which],
+            self.turn_deg[which], self.anchor[which], self.room_mm[which], self.hidden_by[which],
         )  # fmt: skip
 
     def moved(self, way: Floats) -> Texts:

@@ -16,8 +16,8 @@ from vectorplot.drawing.drawing import Drawing, Layer, Paths, Pen
 from vectorplot.drawing.finishing import inked
 from vectorplot.drawing.layers import BLACK, layers_by_kind
 from vectorplot.drawing.letters import lettered
-from vectorplot.drawing.title_block import DrawingScale
 from vectorplot.drawing.strokes import chosen
+from vectorplot.drawing.title_block import DrawingScale
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.features.contours_and_isophotes import plane_sections
 from vectorplot.features.curve_tracing import Tracing
