@@ -130,7 +130,7 @@ def _normals_of(item: Item) -> TrueNormals | None:
 
 # Shaded polygons cut so small that shading between their corners shows what the light does.
 
-SHADE_ERROR, USUAL_MM = 2.0 / 255.0, 0.02
+SHADE_ERROR, USUAL_MM = 4.0 / 255.0, 0.02
 """By how much of a palette shades along sides may be off, where polygons may be off by so many mm."""
 
 SHADE_LIMITS = (0.5, 4.0)
@@ -450,7 +450,7 @@ def nearby(triangles: Floats, off: float, box: Floats) -> Nearby:
 
 # How fine the triangles of smooth surfaces have to be, so that a picture shows none of them.
 
-DEEP, DEEP_IN_LIGHT = 40.0, 3.0
+DEEP, DEEP_IN_LIGHT = 40.0, 8.0
 """By how many times the tolerance triangles may be off the surface where that can be seen from the eye only, along the
 sight rays: apart from outlines, borders and other items; fewer where borders of shadows show it."""
 
