@@ -38,8 +38,8 @@ OTHER_NORMAL = 1e-4
 ONE_PLACE_MM = 1e-4
 """Corners of shadows on neighbouring facets that are in one cell of this size on the page are one."""
 
-DARK = 1.0 - 1e-9
-"""A facet of which shadows cover such a part is dark as a whole."""
+SAME_AREA = 1e-9
+"""A facet from the area of which that of its shadows differs by no more than such a part is dark as a whole."""
 
 ROUND = np.pi / 2.0
 """On a ball lit from the eye shades change by so much a radius in the mean."""
@@ -213,9 +213,12 @@ def _apart_from_farther(owner: Ints, node: Ints, layer: Ints) -> Bools:
 
 
 def _dark(faces: ImageFaces, parts: Laid) -> Bools:
-    """(n,) the facets that parts of decals, which do not overlap, cover."""
+    """(n,) the facets that one part of a decal covers, or several that do not overlap."""
     whole, covered = (np.abs(_signed_areas(shapes.points, shapes.offsets)) for shapes in (faces, parts))
-    return np.bincount(parts.piece, covered, minlength=len(whole)) > DARK * whole
+    largest = np.zeros(len(whole))
+    np.maximum.at(largest, parts.piece, covered)
+    together = np.bincount(parts.piece, covered, minlength=len(whole))
+    return (largest >= (1.0 - SAME_AREA) * whole) | (np.abs(together - whole) <= SAME_AREA * whole)
 
 
 def _signed_areas(points: Floats, offsets: Ints) -> Floats:
