@@ -120,7 +120,10 @@ def fineness(
         from vectorplot.effects.glass import items_in_glass
 
         in_glass = items_in_glass(shown, projection)
-    return picture_fineness(shown, projection, casts, allowed, tolerance_mm, in_glass)
+    in_bands = None
+    if pipeline.calls_for("surface bands"):
+        in_bands = np.array([may_have_bands(item) for item in shown.items], dtype=np.bool_)
+    return picture_fineness(shown, projection, casts, allowed, tolerance_mm, in_glass, in_bands)
 
 
 def off_surfaces(seen: VisiblePolygons, tolerance_mm: float) -> Floats:

@@ -130,7 +130,7 @@ def _normals_of(item: Item) -> TrueNormals | None:
 
 # Shaded polygons cut so small that shading between their corners shows what the light does.
 
-SHADE_ERROR, USUAL_MM = 4.0 / 255.0, 0.02
+SHADE_ERROR, USUAL_MM = 2.0 / 255.0, 0.02
 """By how much of a palette shades along sides may be off, where polygons may be off by so many mm."""
 
 SHADE_LIMITS = (0.5, 4.0)
@@ -450,12 +450,16 @@ def nearby(triangles: Floats, off: float, box: Floats) -> Nearby:
 
 # How fine the triangles of smooth surfaces have to be, so that a picture shows none of them.
 
-DEEP, DEEP_IN_LIGHT = 40.0, 8.0
+DEEP, DEEP_IN_LIGHT = 40.0, 3.0
 """By how many times the tolerance triangles may be off the surface where that can be seen from the eye only, along the
 sight rays: apart from outlines, borders and other items; fewer where borders of shadows show it."""
 
 DEEPEST_MM, LEAST_DEEP = 1.0, 5.0
 """They are never farther off than this on the page, or so many tolerances: coarse nets take many cuts at outlines."""
+
+DEEP_IN_BANDS, SHADES_IN_BANDS = 8.0, 1.5
+"""By how many times the tolerance they may be off in light, and shades along sides by how much more, where surfaces
+are painted in bands: isophotes go by normals between those of corners, not by the shades there."""
 
 STEEP, FLATTEST = 0.2, 0.35
 """Where sight rays come in with a smaller cosine than this, triangles may be off by less, in proportion, down to this
@@ -514,7 +518,7 @@ class PictureFineness:
     @property
     def alike(self) -> Hashable:
         """Equal for what can be asked at once."""
-        return finish_of(self.items[0].material), self.doubles
+        return finish_of(self.items[0].material), self.doubles, self.shade_error
 
     @classmethod
     def joined(cls, asked: Sequence[PictureFineness]) -> PictureFineness:
@@ -644,10 +648,11 @@ def picture_fineness(
     allowed: Allowed,
     tolerance_mm: float,
     in_glass: Bools | None = None,
+    in_bands: Bools | None = None,
 ) -> Callable[[int], PictureFineness]:
     """What a picture of the scene asks of the triangles of its items, by their numbers. casts: whether its lights throw
     shadows; allowed: how far triangles may be off outlines, so that it is tolerance_mm on the page; in_glass (i,): the
-    items that are seen with their outlines elsewhere, too."""
+    items that are seen with their outlines elsewhere, too; in_bands (i,): those that are painted in bands of shade."""
     reached = Mesh(box_corners(scene.bounds), np.zeros(0, dtype=np.intp), np.zeros(1, dtype=np.intp))
     view = view_of(Scene((Item("box", reached),)), projection)
     lights = view_lights(view, scene.lights)
@@ -681,8 +686,11 @@ def picture_fineness(
         # Light goes through what is transparent: shadows fall on patterns only.
         dark = casts and (item.material.opacity >= 1.0 or bool(item.patterns))
         fine = (in_glass is not None and in_glass[number]) or len(doubles[number]) > MOST_DOUBLES
-        deep = np.array([1.0 if fine else min(DEEP_IN_LIGHT if dark else DEEP, most)])
+        banded = in_bands is not None and in_bands[number]
+        in_light = DEEP_IN_BANDS if banded else DEEP_IN_LIGHT
+        deep = np.array([1.0 if fine else min(in_light if dark else DEEP, most)])
         error, seen_from = shade_error(tolerance_mm), () if fine else doubles[number]
+        error *= SHADES_IN_BANDS if banded else 1.0
         return PictureFineness(view, (item,), lights, casts, deep, (near,), allowed, error, seen_from)
 
     return criterion

@@ -184,7 +184,7 @@ def band_widths(reach: Floats, radius_mm: Floats, tolerance_mm: float) -> tuple[
     (n,) how far isophotes may be off on the page."""
     wide = np.clip(np.sqrt(MIDDLING_MM / np.maximum(radius_mm, MIDDLING_MM / 16.0)), NARROWEST, WIDEST)
     # Wider ones are seen, whatever the tolerance is.
-    allowed = 0.5 * min(shade_error(tolerance_mm), SHADE_ERROR)
+    allowed = min(shade_error(tolerance_mm), SHADE_ERROR)
     steps = np.minimum(reach / (2.0 * wide * allowed), MOST_PER_MM * radius_mm)
     steps = np.maximum(np.ceil(steps), FEWEST)
     return steps, np.minimum(LOOSE * tolerance_mm, LOOSE_OF_BAND * radius_mm / steps)
@@ -786,7 +786,8 @@ class _Marching:
 
     def _allowed(self, page: Floats) -> tuple[Floats, Floats]:
         """(k,) how far corners (2,k) may be beside the lines that are drawn without them where bands begin, and where
-        they end under the next ones. On borders all bands have the same corners, and keep them."""
+        they end under the next ones. On borders all bands have the same corners, and keep them but for what rounding
+        does to them."""
         one, other, number = self.sides
         side = self.crossings[0]
         inner = np.bincount(number.ravel(), minlength=len(one))[side] > 1
@@ -794,8 +795,9 @@ class _Marching:
         covered = self.mesh.covered
         hidden = covered[one[side]] & covered[other[side]]
         wide = self._band_widths(page)[side]
-        nodes, ends = np.where(covered, UNSEEN_MM, 0.0), (np.minimum(loose, THINNED * wide), THINNED_UNDER * wide)
-        begin, end = (np.where(hidden, UNSEEN_MM, np.where(inner, one, 0.0)) for one in ends)
+        least = 0.5 * ROUNDED_MM
+        nodes, ends = np.where(covered, UNSEEN_MM, least), (np.minimum(loose, THINNED * wide), THINNED_UNDER * wide)
+        begin, end = (np.where(hidden, UNSEEN_MM, np.where(inner, one, least)) for one in ends)
         return np.concatenate([nodes, begin]), np.concatenate([nodes, end])
 
     def _band_widths(self, page: Floats) -> Floats:
