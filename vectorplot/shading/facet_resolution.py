@@ -457,9 +457,8 @@ sight rays: apart from outlines, borders and other items; fewer where borders of
 DEEPEST_MM, LEAST_DEEP = 1.0, 5.0
 """They are never farther off than this on the page, or so many tolerances: coarse nets take many cuts at outlines."""
 
-DEEP_IN_BANDS, SHADES_IN_BANDS = 8.0, 1.5
-"""By how many times the tolerance they may be off in light, and shades along sides by how much more, where surfaces
-are painted in bands: isophotes go by normals between those of corners, not by the shades there."""
+DEEP_IN_BANDS = 8.0
+"""And of surfaces that are painted in bands, on which borders of shadows run on from facet to facet."""
 
 STEEP, FLATTEST = 0.2, 0.35
 """Where sight rays come in with a smaller cosine than this, triangles may be off by less, in proportion, down to this
@@ -518,7 +517,7 @@ class PictureFineness:
     @property
     def alike(self) -> Hashable:
         """Equal for what can be asked at once."""
-        return finish_of(self.items[0].material), self.doubles, self.shade_error
+        return finish_of(self.items[0].material), self.doubles
 
     @classmethod
     def joined(cls, asked: Sequence[PictureFineness]) -> PictureFineness:
@@ -690,7 +689,6 @@ def picture_fineness(
         in_light = DEEP_IN_BANDS if banded else DEEP_IN_LIGHT
         deep = np.array([1.0 if fine else min(in_light if dark else DEEP, most)])
         error, seen_from = shade_error(tolerance_mm), () if fine else doubles[number]
-        error *= SHADES_IN_BANDS if banded else 1.0
         return PictureFineness(view, (item,), lights, casts, deep, (near,), allowed, error, seen_from)
 
     return criterion
