@@ -102,7 +102,7 @@ def without_unseen_facets(
     to find these."""
     smooth = smooth_items(faceted)
     pieces = np.bincount(painted.faces.source, minlength=view.face_count)
-    unseen = unseen_faces(view, projected, (pieces > 0) & smooth[view.face_item], pieces > 1, budget)
+    unseen = unseen_faces(view, projected, (pieces > 0) & smooth[view.face_item], pieces > 1, budget.pairs)
     return painted.faces.take(np.flatnonzero(~unseen[painted.faces.source]))
 
 

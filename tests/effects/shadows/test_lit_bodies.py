@@ -39,7 +39,8 @@ def view_of_meshes(*meshes: Mesh) -> View:
 def bodies_of(view: View, light: Light, off: float = 0.0) -> LitBodies:
     planes, system = FacePlanes.of(view), light_system(view, light)
     facing = system.facing(planes, view.tolerance)
-    return lit_bodies(view, planes, system, facing, view.occludes, np.full(len(view.occludes), off), body_sides(view))
+    every, offs = np.arange(view.face_count), np.full(len(view.occludes), off)
+    return lit_bodies(view, planes, system, facing, view.occludes, offs, body_sides(view), every)
 
 
 @pytest.mark.parametrize("light", LAMPS)

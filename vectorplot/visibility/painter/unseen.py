@@ -7,11 +7,12 @@ from numpy.typing import NDArray
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
-from vectorplot.geometry.budget import Budget
+from vectorplot.geometry.budget import unheard
+from vectorplot.geometry.component_arrays import dot
 from vectorplot.scene.view import View
 from vectorplot.visibility.polyhedra.hidden_lines import Segments, tried_pairs, visible_parts
 from vectorplot.visibility.polyhedra.occluders import solid_items
-from vectorplot.visibility.projected_faces import EVERYWHERE, ProjectedFaces
+from vectorplot.visibility.projected_faces import EVERYWHERE, ProjectedFaces, newell
 
 # Faces no part of which is seen, because opaque ones cover all of it.
 
@@ -19,15 +20,15 @@ IN_ONE_CELL = 64
 """So many pairs of a side and a face in one cell of the image are as much work as one that is looked at closely."""
 
 
-def unseen_faces(view: View, projected: ProjectedFaces, asked: Bools, cut: Bools, budget: Budget) -> Bools:
+def unseen_faces(view: View, projected: ProjectedFaces, asked: Bools, cut: Bools, pairs: float) -> Bools:
     """(f,) which of the faces asked about (f,) are wholly covered by faces of items that occlude.
 
     What can be seen of a face is bounded by its own sides and, where something in front of it ends, by sides with faces
-    on one side only in the image; so a face none of whose sides is seen, and over which no such side is seen, is not
-    seen either. That holds for faces that nothing pierces.
+    on one side only in the image; so a face none of whose sides is seen, and nothing of which is seen right behind such
+    a side that is seen itself, is not seen either. That holds for faces that nothing pierces.
     cut (f,): the faces that the painter had to cut; where they are, something may pierce another, and all is seen.
     Edge cases: nothing is unseen where faces reach through the near plane, or where so many lie on each other that
-    finding out costs more than the budget's pairs; a face along the border of what covers it is seen.
+    finding out costs more than so many pairs; a face along the border of what covers it is seen.
     Source: Glaeser, section 7.2 (visibility changes only at contours).
     """
     none = np.zeros(view.face_count, dtype=np.bool_)
@@ -40,9 +41,9 @@ def unseen_faces(view: View, projected: ProjectedFaces, asked: Bools, cut: Bools
     which = np.flatnonzero(needed)
     segments = Segments(view.points[:, start[which]], view.points[:, end[which]])
     solid = solid_items(view, projected)
-    if tried_pairs(view, projected, solid, segments) > IN_ONE_CELL * budget.pairs:
+    if tried_pairs(view, projected, solid, segments) > IN_ONE_CELL * pairs:
         return none
-    seen = visible_parts(view, projected, solid, segments, lambda _: None)
+    seen = visible_parts(view, projected, solid, segments, unheard)
     open_side = np.zeros(len(start), dtype=np.bool_)
     open_side[which[seen.segment]] = True
     face = ragged.owner(view.face_sizes)
@@ -52,7 +53,13 @@ def unseen_faces(view: View, projected: ProjectedFaces, asked: Bools, cut: Bools
     number, low, high = seen.segment[rims], seen.low[rims], seen.high[rims]
     way = segments.end - segments.start
     parts = [view.image_of(segments.start[:, number] + t * way[:, number]) for t in (low, high)]
-    return _without_crossed(view, covered, cut, np.stack(parts, axis=-1).transpose(1, 2, 0))
+    covered &= ~_meeting(view, covered, _images(view, np.flatnonzero(cut)))
+    rim, over, behind = _behind(view, projected, np.flatnonzero(covered), *parts)
+    if len(rim) > pairs:
+        covered[over] = False
+    else:
+        covered[over[visible_parts(view, projected, solid, behind, unheard).segment]] = False
+    return covered
 
 
 def _sides(view: View, projected: ProjectedFaces) -> tuple[Ints, Ints, Ints, Bools]:
@@ -71,17 +78,53 @@ def _sides(view: View, projected: ProjectedFaces) -> tuple[Ints, Ints, Ints, Boo
     return keys // count, keys % count, of_corner.ravel(), surplus != 0.0
 
 
-def _without_crossed(view: View, covered: Bools, cut: Bools, lines: Floats) -> Bools:
-    """The covered faces (f,) but for those with images that meet lines (m,2,2) of the image, or images of cut faces."""
+def _meeting(view: View, covered: Bools, others: NDArray[np.object_]) -> Bools:
+    """(f,) the covered faces (f,) whose images meet other shapes."""
     import shapely
 
     face = np.flatnonzero(covered)
-    found = covered.copy()
-    if len(face):
-        tree = shapely.STRtree(_images(view, face))
-        others = np.concatenate((shapely.linestrings(lines), _images(view, np.flatnonzero(cut))))
-        found[face[tree.query(others, predicate="intersects")[1]]] = False
+    found = np.zeros_like(covered)
+    if len(face) and len(others):
+        found[face[shapely.STRtree(_images(view, face)).query(others, predicate="intersects")[1]]] = True
     return found
+
+
+def _behind(
+    view: View, projected: ProjectedFaces, face: Ints, start: Floats, end: Floats
+) -> tuple[Ints, Ints, Segments]:
+    """Where lines of the image from start to end (2,m) run over faces (n,): lines (k,), faces (k,), and the parts of
+    these that are seen there, were there nothing before them."""
+    import shapely
+
+    tree = shapely.STRtree(_images(view, face))
+    line, over = tree.query(shapely.linestrings(np.stack([start, end]).transpose(2, 0, 1)), predicate="intersects")
+    over = face[over]
+    low, high = np.zeros(len(line)), np.ones(len(line))
+    sizes, turned = view.face_sizes[over], projected.facing[over]
+    for step in range(int(sizes.max(initial=0))):
+        corner = view.corners[view.offsets[over] + np.minimum(step, sizes - 1)]
+        after = view.corners[view.offsets[over] + np.where(step + 1 < sizes, step + 1, 0)]
+        at, way = view.image[:, corner], turned * (view.image[:, after] - view.image[:, corner])
+        way[:, step >= sizes] = 0.0
+        here, there = (way[0] * (ends[1, line] - at[1]) - way[1] * (ends[0, line] - at[0]) for ends in (start, end))
+        part = here / np.where(here != there, here - there, 1.0)
+        low = np.where((here < 0.0) & (there > here), np.maximum(low, part), low)
+        high = np.where((there < 0.0) & (here > there), np.minimum(high, part), high)
+        high[(here < 0.0) & (there < 0.0)] = -1.0
+    kept = np.flatnonzero(low < high)
+    line, over = line[kept], over[kept]
+    along = end[:, line] - start[:, line]
+    ends = [_on_faces(view, start[:, line] + part[kept] * along, over) for part in (low, high)]
+    return line, over, Segments(*ends)
+
+
+def _on_faces(view: View, image: Floats, face: Ints) -> Floats:
+    """(3,n) what points (2,n) of the image show of the planes of faces (n,)."""
+    normal, _, first = newell(view, face)
+    place = view.in_image_plane(image)
+    way = np.broadcast_to([[0.0], [0.0], [1.0]], place.shape) if view.eye is None else place - view.eye[:, None]
+    far = dot(normal, view.points[:, first] - place) / dot(normal, way)
+    return np.asarray(place + far * way)
 
 
 def _images(view: View, face: Ints) -> NDArray[np.object_]:
