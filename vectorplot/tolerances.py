@@ -958,12 +958,12 @@ SAME_SHADE = 1e-9
 two sides of a sharp edge by much more."""
 
 SAME_NORMAL = 1e-4
-"""Normals at one corner of facets, interpolated on each of these, differ by rounding only below this; those on two sides
-of a sharp edge by much more."""
+"""Normals at one corner of facets, interpolated on each of these, differ by rounding only below this; those on two
+sides of a sharp edge by much more."""
 
 SHADOW_CORNER_MM = 1e-4
-"""Corners of shadows on neighbouring facets are one if they are in one cell of this size on the page: a hundredth of what
-is written. They differ by a few tolerances of the view, thousands of times less."""
+"""Corners of shadows on neighbouring facets are one if they are in one cell of this size on the page: a hundredth of
+what is written. They differ by a few tolerances of the view, thousands of times less."""
 
 SAME_AREA = 1e-9
 """Shadows cover a facet if their areas add up to its own but for such a part: rounding leaves a thousandth of it, and

@@ -200,7 +200,7 @@ def _apart_from_farther(owner: Ints, node: Ints, layer: Ints) -> Bools:
     """(n,) the facets that have no corner in common with one of a layer behind theirs."""
     farthest = np.zeros(int(node.max(initial=-1)) + 1, dtype=np.intp)
     np.maximum.at(farthest, node, layer[owner])
-    return np.bincount(owner, farthest[node] > layer[owner], minlength=len(layer)) == 0.0
+    return np.asarray(np.bincount(owner, farthest[node] > layer[owner], minlength=len(layer)) == 0.0)
 
 
 def _dark(faces: ImageFaces, parts: Laid) -> Bools:

@@ -766,7 +766,8 @@ class _Marching:
         part = self.part[a][of]
         bands = np.stack([band - under for under in range(OVER)])
         row, piece = np.nonzero(bands >= lowest[part])
-        return part[piece] * self._span + COAT + bands[row, piece], start[piece], end[piece], kind[piece]
+        key = np.asarray(part[piece] * self._span + COAT + bands[row, piece], dtype=np.intp)
+        return key, start[piece], end[piece], kind[piece]
 
     @cached_property
     def _coat(self) -> tuple[Ints, Ints]:
@@ -884,8 +885,8 @@ def _rings_within(page: Floats, offsets: Ints, group: Ints, one: Ints, other: In
     if not len(one) or not len(other):
         return one[:0], other[:0]
     low, high = (extreme.reduceat(page, offsets[:-1], axis=1) for extreme in (np.minimum, np.maximum))
-    boxes = [np.vstack([group[rings], edge[:, rings]]) for rings in (one, other) for edge in (low, high)]
-    pair, inner = overlapping_boxes(*boxes)
+    below, above = (np.vstack([group, edge]) for edge in (low, high))
+    pair, inner = overlapping_boxes(below[:, one], above[:, one], below[:, other], above[:, other])
     around, within = one[pair], other[inner]
     wide = (low[:, around] <= low[:, within]).all(axis=0) & (high[:, around] >= high[:, within]).all(axis=0)
     around, within = around[wide & (around != within)], within[wide & (around != within)]
