@@ -995,6 +995,18 @@ SAME_SHADE = 1e-9
 """Shades of one point, found from two triangles at it, differ by rounding only below this part of a palette; those on
 two sides of a sharp edge by much more."""
 
+SAME_NORMAL = 1e-4
+"""Normals at one corner of facets, interpolated on each of these, differ by rounding only below this; those on two
+sides of a sharp edge by much more."""
+
+SHADOW_CORNER_MM = 1e-4
+"""Corners of shadows on neighbouring facets are one if they are in one cell of this size on the page: a hundredth of
+what is written. They differ by a few tolerances of the view, thousands of times less."""
+
+SAME_AREA = 1e-9
+"""Shadows cover a facet if their areas add up to its own but for such a part: rounding leaves a thousandth of it, and
+such as overlap, or leave some of the facet free, differ by more."""
+
 UNSOLVED = 1e12
 """Control points this many times as far out as the points of a spline are none: the equations have no solution."""
 
