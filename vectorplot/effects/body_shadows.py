@@ -372,8 +372,8 @@ def lit_bodies(
     system: LightSystem,
     facing: Ints,
     items: Bools,
-    sides: Ints,
     off: Floats,
+    sides: Ints,
     receivers: Ints,
 ) -> LitBodies:
     """The bodies among items (i,) for a light; sides (i,): as of body_sides.
@@ -383,7 +383,7 @@ def lit_bodies(
     on; bodies beside which none of another item is among these need no region.
     Source: Glaeser, section 6.3, figure 5 (convex bodies and their outlines).
     """
-    _, turned = turned_to_light(view, system, facing, sides)
+    _, turned = turned_to_light(view, sides, system, facing)
     face = np.flatnonzero(turned & items[view.face_item])
     face = face[narrow(view, system, face)]
     item, body = np.unique(view.face_item[face], return_inverse=True)

@@ -21,9 +21,9 @@ from vectorplot.geometry.rotations import look_rotation
 from vectorplot.scene.light import Light
 from vectorplot.scene.view import View
 from vectorplot.tolerances import NEAR_OF_DISTANCE
-from vectorplot.visibility.painter.unseen import crossing_items, unseen_faces
+from vectorplot.visibility.painter.unseen import unseen_faces
 from vectorplot.visibility.polyhedra.lines import near_plane, window_planes
-from vectorplot.visibility.projected_faces import newell, project_faces
+from vectorplot.visibility.projected_faces import crossing_items, newell, project_faces
 
 # A view from a light: which faces are lit, and what lies before what on the rays of light.
 #
@@ -281,7 +281,7 @@ def shadow_casters(
     whole = items & solids & lit
     of_solid = np.flatnonzero(whole[view.face_item] & (facing > 0))
     loose = items & ~whole
-    one_sided, turned = turned_to_light(view, system, facing, sides)
+    one_sided, turned = turned_to_light(view, sides, system, facing)
     alone = np.flatnonzero(loose[view.face_item] & (facing != 0) & (~one_sided[view.face_item] | turned))
     item, owner = np.unique(view.face_item[of_solid], return_inverse=True)
     face = np.concatenate([of_solid, alone])
@@ -290,9 +290,9 @@ def shadow_casters(
     return Casters(volumes, np.concatenate([item, view.face_item[alone]]), face, caster)
 
 
-def turned_to_light(view: View, system: LightSystem, facing: Ints, sides: Ints) -> tuple[Bools, Bools]:
-    """(i,) closed items, as body_sides (i,) says, that the light is outside of, and (f,) the faces that they turn to
-    it."""
+def turned_to_light(view: View, sides: Ints, system: LightSystem, facing: Ints) -> tuple[Bools, Bools]:
+    """(i,) closed items, by their sides (i,), see body_sides, that the light is outside of, and (f,) the faces that
+    they turn to it."""
     side = np.where(_near_light(view, system), 0, sides)
     return side != 0, np.asarray(facing * side[view.face_item] > 0)
 

@@ -47,7 +47,6 @@ from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
 from vectorplot.shading.illumination import LEVELS
 from vectorplot.visibility.painter.image_faces import drawn_faces
-from vectorplot.visibility.painter.unseen import body_sides
 from vectorplot.visibility.polyhedra.occluders import solid_items
 from vectorplot.visibility.projected_faces import ProjectedFaces, project_faces
 
@@ -339,16 +338,15 @@ def cast_within(
     solids = solid_items(replace(view, occludes=items), projected, most_faces=MOST_FACES)
     planes = FacePlanes.of(view)
     off = np.zeros(len(items)) if off is None else off
-    seen = drawn_faces(view, projected)
+    seen, sides = drawn_faces(view, projected), projected.sides
     seen = seen if receivers is None else seen[receivers[seen]]
-    sides = body_sides(view)
     unpierced = unpierced_faces(view, items & ~solids, sides)
     found, missing = [], [np.zeros((3, 0), dtype=np.intp)]
     for number, light in in_turn(enumerate(lights)):
         system = light_system(view, light)
         facing = system.facing(planes, view.tolerance)
         lit = seen[facing[seen] * projected.facing[seen] > 0]
-        bodies = lit_bodies(view, planes, system, facing, items & ~solids, sides, off, lit)
+        bodies = lit_bodies(view, planes, system, facing, items & ~solids, off, sides, lit)
         bright = Receivers.of(view, lit)
         outlined, open_items, open_receivers = _of_outlines(view, system, bodies, bright, number)
         alone = items.copy()

@@ -44,7 +44,6 @@ from vectorplot.scene.view import View
 from vectorplot.shading.shaded_faces import view_lights
 from vectorplot.visibility.painter.body_order import order_among_bodies
 from vectorplot.visibility.painter.image_faces import view_points
-from vectorplot.visibility.painter.unseen import body_sides
 from vectorplot.visibility.polyhedra.occluders import solid_items
 from vectorplot.visibility.projected_faces import ProjectedFaces
 from vectorplot.visibility.quadrics.clearances import Silhouettes, balls_around, is_within, silhouettes
@@ -137,13 +136,13 @@ def shades_of_faces(
     where nothing; None where something else may throw a shadow on one."""
     items = view.occludes
     solids = solid_items(view, projected, most_faces=MOST_FACES)
-    planes, sides = FacePlanes.of(view), body_sides(view)
+    planes = FacePlanes.of(view)
     middle, radius = balls_around(whole.bodies)
     found: list[Shade | None] = []
     for light in lights:
         system = light_system(view, light)
         facing = system.facing(planes, view.tolerance)
-        casters = shadow_casters(view, planes, system, facing, items, solids, sides)
+        casters = shadow_casters(view, planes, system, facing, items, solids, projected.sides)
         pairs = [np.zeros((2, 0), dtype=np.intp)]
         sizes = np.diff(casters.volumes.offsets)
         for low, high in ragged.batches(sizes * max(len(radius), 1), PAIRS_AT_ONCE):

@@ -34,7 +34,6 @@ from vectorplot.testing.shapes import (
 from vectorplot.textbook.orders import graph_triangles
 from vectorplot.visibility.painter.face_splitting import cut_into_slices
 from vectorplot.visibility.painter.image_faces import drawn_faces
-from vectorplot.visibility.painter.unseen import body_sides
 from vectorplot.visibility.polyhedra.occluders import solid_items
 from vectorplot.visibility.projected_faces import project_faces
 
@@ -377,7 +376,7 @@ def test_boxes_and_depths_in_the_light_system_lose_no_shadow(light: Light) -> No
     projected, planes, system = project_faces(view), FacePlanes.of(view), light_system(view, light)
     facing = system.facing(planes, view.tolerance)
     solids = solid_items(view, projected)
-    casters = shadow_casters(view, planes, system, facing, view.occludes, solids, body_sides(view))
+    casters = shadow_casters(view, planes, system, facing, view.occludes, solids, projected.sides)
     seen = drawn(view)
     receivers = Receivers.of(view, seen[facing[seen] * projected.facing[seen] > 0])
     found = [pair for batch in candidates(view, system, casters, receivers) for pair in zip(*batch, strict=True)]
