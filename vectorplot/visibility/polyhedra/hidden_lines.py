@@ -395,6 +395,12 @@ def _inner_cells(grid: Grid, box: Floats32) -> tuple[Ints, Ints, Ints, Ints]:
 PAIRS_AT_ONCE = 1 << 17
 """Pairs of a piece and an occluder handled at once."""
 
+INTERVALS_AT_ONCE = 1 << 21
+"""So many hidden intervals are found before those that overlap become one: of crowds lines are hidden by many things."""
+
+Marked = tuple[Ints, Floats, Floats, Ints]
+"""Hidden intervals of segments (n,), from low to high (n,), and their sides (n,), as of Hits."""
+
 MOST_SLABS, IN_SLAB, ONE_SLAB = 24, 4000, 250
 """Occluders are tried front to back in slabs of equal number: hidden lines drop out early, near lines are not tried
 against what is far. Each slab costs a little: there are at most so many, for so many occluders and pieces each; and one
@@ -466,11 +472,16 @@ def visible_parts(
     alive = np.ones(len(pieces), dtype=np.bool_)
     fewer = min(len(occluders), len(pieces))
     slabs = min(max(fewer // IN_SLAB, 4), MOST_SLABS) if fewer > ONE_SLAB else 1
+    count = 0
     for piece, hits, _ in _all_hits(view, grid, segments, pieces, occluders, alive, slabs, progress):
         of = piece.take(hits.pair)
         hidden_intervals.append((pieces.segment.take(of), hits.low, hits.high, hits.side))
         whole = (hits.side == 0) & (hits.low <= pieces.low.take(of)) & (hits.high >= pieces.high.take(of))
         alive[of.compress(whole)] = False
+        count += len(of)
+        if count > INTERVALS_AT_ONCE:
+            hidden_intervals, count = [_merged(hidden_intervals, gap)], 0
+            alive &= ~_hidden_whole(pieces, hidden_intervals[0])
     segment, low, high, side = (np.concatenate(column) for column in zip(*hidden_intervals, strict=True))
     owner, low, high = _resolved(segment, low, high, side, gap)
     long = high - low > gap[owner]
@@ -632,6 +643,30 @@ def _resolved(segment: Ints, low: Floats, high: Floats, side: Ints, gap: Floats)
     rest = (segment[~some], low[~some], high[~some])
     owner, low, high = (np.concatenate(pair) for pair in zip(part, rest, strict=True))
     return intervals.union(owner, low, high, gap)
+
+
+def _merged(found: list[Marked], gap: Floats) -> Marked:
+    """Hidden intervals, those of both sides disjoint, before those of one."""
+    segment, low, high, side = (np.concatenate(column) for column in zip(*found, strict=True))
+    some = np.flatnonzero(side == 0)
+    parts = intervals.union(segment.take(some), low.take(some), high.take(some), gap)
+    rest = np.flatnonzero(side)
+    none = np.zeros(len(parts[0]), dtype=np.intp)
+    own = (column.take(rest) for column in (segment, low, high, side))
+    segment, low, high, side = (np.concatenate(pair) for pair in zip((*parts, none), own, strict=True))
+    return segment, low, high, side
+
+
+def _hidden_whole(pieces: Pieces, hidden: Marked) -> Bools:
+    """(p,) the pieces that one of the intervals of both sides, disjoint and in order, hides from end to end."""
+    segment, low, high, side = hidden
+    count = int(np.count_nonzero(side == 0))
+    if not count:
+        return np.zeros(len(pieces), dtype=np.bool_)
+    place = np.searchsorted(segment[:count] + low[:count], pieces.segment + pieces.low, side="right") - 1
+    at = np.maximum(place, 0)
+    within = (low[at] <= pieces.low) & (high[at] >= pieces.high)
+    return np.asarray((segment[at] == pieces.segment) & within, dtype=np.bool_)
 
 
 def _by_item(
