@@ -19,8 +19,7 @@ from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View, look
 from vectorplot.testing.shapes import box
 from vectorplot.visibility.painter.image_faces import drawn_faces
-from vectorplot.visibility.painter.unseen import body_sides
-from vectorplot.visibility.projected_faces import project_faces
+from vectorplot.visibility.projected_faces import body_sides, project_faces
 
 LAMPS = (Light((3.0, -2.0, 4.0)), Light((0.9, -0.3, 0.4), parallel=True))
 EVERY_FACE = 10
