@@ -126,6 +126,7 @@ def paint(
     title: str = "",
     frame: bool = False,
     text: Literal["strokes", "real"] = "strokes",
+    shortest_mm: float | None = None,
     off_by: float | str | None = None,
     within: float | str | None = None,
     budget: float = 1.0,
@@ -189,6 +190,8 @@ def paint(
         A rectangle in the middle of the margin, which ends before the title.
     text : {"strokes", "real"}
         As in draw.
+    shortest_mm : float, optional
+        Lines that are shorter when they are joined are left out; none where None.
     off_by : float or str, optional
         The error that the picture is to keep, mm, a text such as "0.01mm", or
         with the error of shades, in steps of 255, "0.01mm,4shades": tolerance_mm is chosen for it,
@@ -312,7 +315,7 @@ def paint(
         among = painted_bodies(painter, shown, beside_bodies)
     if among is not None:
         view, placement, polygons = among
-        ruler = LineOverlay(scene, view, None, placement, crease_angle_deg, tolerance_mm, budget)
+        ruler = LineOverlay(scene, view, None, placement, crease_angle_deg, tolerance_mm, budget, shortest_mm)
     else:
         ordered = painter.ordered(shown)
         beside = places_beside_faces(scene, ordered.view, None, sheet, fit, drawn, tolerance_mm, budget)
@@ -321,7 +324,8 @@ def paint(
             placement = subject.around(placement, ordered.view, sheet)
         pipeline.measured("facets", "mm", outline_error, ordered.facets, ordered.view, placement)
         seen, lighting = painter.seen(ordered, placement)
-        ruler = LineOverlay(scene, seen.view, seen.projected, placement, crease_angle_deg, tolerance_mm, budget)
+        drawn_by = (crease_angle_deg, tolerance_mm, budget, shortest_mm)
+        ruler = LineOverlay(scene, seen.view, seen.projected, placement, *drawn_by)
         if pipeline.calls_for("erasing"):
             polygons = erased(pipeline, seen, scene, ruler, kinds or line_kinds(ON_THINGS), palette)
         else:
