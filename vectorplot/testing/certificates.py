@@ -6,7 +6,7 @@ import json
 import re
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, cast
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -49,7 +49,7 @@ from vectorplot.surfaces.quadrics import (
     Paraboloid,
     Sphere,
 )
-from vectorplot.surfaces.surface import Domain
+from vectorplot.surfaces.surface import Surface
 from vectorplot.surfaces.swept import Rotoid, Screw, SpiralMotion, Swept, Translation
 from vectorplot.surfaces.tori import Torus
 from vectorplot.testing import certified_shapes as shapes
@@ -249,6 +249,7 @@ def certificate(
                 "name": item.name,
                 "hides": bool(view.occludes[number]),
                 "smooth": not isinstance(item.shape, Mesh),
+                **_conditions(item, parts[number]),
                 "surfaces": _nets(parts[number], rows, smooth_mm),
                 "lines": [] if partial else _complete(item, kinds),
                 "vertices": plain(world[first[number] : first[number + 1]]),
@@ -477,6 +478,16 @@ def _carried(curve: tuple[str, str, str], motion: object) -> tuple[str, str, str
     return f"{x}*cos(v)-{y}*sin(v)", f"{x}*sin(v)+{y}*cos(v)", z
 
 
+def _conditions(item: Item, surfaces: tuple[_Surface, ...]) -> dict[str, list[list[float]]]:
+    """Where parameter lines and plane sections of an item are: values of u and of v; rows of normal and offset."""
+    if not surfaces:
+        return {"parameters": [], "planes": []}
+    domain, lines = cast("Surface", item.shape).domain, item.curves
+    values = domain.grid(max(lines.columns, 1), max(lines.rows, 1))
+    planes = [[*np.asarray(one.normal).tolist(), offset] for one in lines.sections for offset in one.offsets]
+    return {"parameters": [one.tolist() for one in values], "planes": planes}
+
+
 def _nets(surfaces: tuple[_Surface, ...], rows: Floats, smooth_mm: float) -> list[dict[str, Any]]:
     """The rows of a certificate that name surfaces; those with the same ends of u share its lines, as caps and mantles
     do, whose rims are one."""
@@ -514,7 +525,7 @@ def _pieces(own: list[int], ways: list[Floats], patches: list[shapes.Patch], row
     stroke = np.repeat(np.arange(len(own)), count)
     begin = np.flatnonzero(stroke[:-1] == stroke[1:])
     names = np.stack([np.array(own)[stroke[begin]], begin - (np.cumsum(count) - count)[stroke[begin]]], axis=1)
-    on = [_feet(patch, points) for patch in patches]
+    on = [_feet(patch, points, rows) for patch in patches]
     off = np.stack([np.maximum(away[begin], away[begin + 1]) for _, away in on])
     page = points_on(rows, points)[:, :2]
     found = []
@@ -538,9 +549,15 @@ def _pieces(own: list[int], ways: list[Floats], patches: list[shapes.Patch], row
             bad = shapes.deviations(patch, rows, cells).sum(axis=1) > _AIM * slack
             if not bad.any():
                 break
-            middle = 0.5 * (rows_of[bad, 2] + rows_of[bad, 3])
-            target = lines[bad, 0] + middle[:, None] * (lines[bad, 1] - lines[bad, 0])
-            at = _under(patch, rows, ends[bad].mean(axis=1), target, closed)
+            middle, at = 0.5 * (rows_of[bad, 2] + rows_of[bad, 3]), ends[bad].mean(axis=1)
+            way = lines[bad, 1] - lines[bad, 0]
+            off = points_on(rows, patch.points(*at.T))[:, :2] - lines[bad, 0]
+            share = (off * way).sum(axis=1) / np.maximum((way * way).sum(axis=1), _TINY)
+            # Straight on in u and v where that is below the line, as on parameter lines; else what is below its middle.
+            straight = np.hypot(*(off - share[:, None] * way).T) < _BESIDE * slack
+            straight &= (share > rows_of[bad, 2]) & (share < rows_of[bad, 3])
+            below = _stepped(patch, rows, at, lines[bad, 0] + middle[:, None] * way, closed)
+            at, middle = np.where(straight[:, None], at, below), np.where(straight, share, middle)
             before, after = rows_of[bad].copy(), rows_of[bad].copy()
             before[:, 3], after[:, 2] = middle, middle
             rows_of = np.concatenate([rows_of[~bad], before, after])
@@ -552,6 +569,9 @@ def _pieces(own: list[int], ways: list[Floats], patches: list[shapes.Patch], row
         found.append(np.column_stack([rows_of, np.full(len(ends), number), ends.reshape(-1, 4)]))
     return np.concatenate(found)
 
+
+_BESIDE = 0.6
+"""Curves are so far beside their chords at most, as a part of what is left open."""
 
 _AT_POLE = 1e-6
 """So near to a pole, as a part of the domain, it is meant."""
@@ -610,20 +630,20 @@ def _closed(patch: shapes.Patch) -> tuple[bool, bool]:
     return bool(np.abs(low - high).max() <= size), bool(np.abs(front - back).max() <= size)
 
 
-def _feet(patch: shapes.Patch, points: Floats) -> tuple[Floats, Floats]:
-    """(n,2) u and v where a surface is nearest to points, and (n,) how far it is; from the nearest points of its net."""
+def _feet(patch: shapes.Patch, points: Floats, rows: Floats) -> tuple[Floats, Floats]:
+    """(n,2) u and v where a surface is nearest to points, and (n,) how far it is; from the nearest points of its net.
+
+    Ends of dashes are on chords, and lie below the surface: what is in the same place on the page counts."""
     from scipy.spatial import cKDTree
 
     u, v = np.meshgrid(patch.u, patch.v, indexing="ij")
     _, nearest = cKDTree(patch.points(u, v).reshape(-1, 3)).query(points)
     place = np.stack([u.ravel()[nearest], v.ravel()[nearest]], axis=1)
     place = _stepped(patch, np.eye(4), place, points, (False, False))
+    under = _stepped(patch, rows, place, points_on(rows, points)[:, :2], (False, False))
+    off = np.linalg.norm(patch.points(*place.T) - points, axis=1)
+    place = np.where((off > FORMULA * np.abs(points).max(initial=0.0) * 1e3)[:, None], under, place)
     return place, np.linalg.norm(patch.points(*place.T) - points, axis=1)
-
-
-def _under(patch: shapes.Patch, rows: Floats, place: Floats, target: Floats, closed: Any) -> Floats:
-    """(n,2) u and v, near given ones, whose image is at places (n,2) on the page; as near as may be beside a contour."""
-    return _stepped(patch, rows, place, target, closed)
 
 
 _STEPS, DAMPING = 6, 1e-3
@@ -631,6 +651,7 @@ _STEPS, DAMPING = 6, 1e-3
 
 
 def _stepped(patch: shapes.Patch, rows: Floats, place: Floats, target: Floats, closed: Any) -> Floats:
+    """(n,2) u and v, near given ones, whose image is at places (n,2) on the page, or (n,3); beside contours near them."""
     size = target.shape[1]
     low, high = np.array([patch.u[0], patch.v[0]]), np.array([patch.u[-1], patch.v[-1]])
     low, high = np.where(closed, -np.inf, low), np.where(closed, np.inf, high)

@@ -292,20 +292,31 @@ def places_of(lines: Segments) -> Ints:
     return np.stack([lines.owner, np.arange(len(lines.owner)) - np.searchsorted(lines.owner, lines.owner)], axis=1)
 
 
-def on_surfaces(lines: Segments, rows: Any, patches: list[Any], view: Floats, slack: float) -> tuple[Segments, Parts]:
-    """Straight pieces, which follow surfaces, of segments that do; and what parts these are. rows: the number of a
-    segment (2), from, to, which surface, u and v there (4)."""
-    table = stacked([rows], 9)[0]
+def on_surfaces(lines: Segments, rows: Any, kinds: Any, patches: Any, items: Any, view: Floats) -> tuple[Segments, Parts]:
+    """Straight pieces, which follow surfaces, of segments that do, parameter lines and sections those of their item; and
+    what parts these are. rows: the number of a segment (2), from, to, which surface, u and v at both ends (4)."""
+    table, slack = stacked([rows], 9)[0], float(lines.slack.max(initial=0.0))
     parts, kept = named_parts(table, places_of(lines))
     ends, right, start, end = table[kept, 5:], np.zeros(len(kept), dtype=np.bool_), *np.zeros((2, len(kept), 3))
-    for number, surface in enumerate(patches):
+    for number, (item, surface) in enumerate(patches):
         own = np.flatnonzero(parts.by == number)
-        u, v = ends[own, ::2], ends[own, 1::2]
-        start[own], end[own] = (image_of(view, surface.points(u[:, k], v[:, k]))[0] for k in (0, 1))
+        (u, v), word = ends[own].reshape(-1, 2, 2).transpose(2, 0, 1), kinds[lines.owner[parts.line[own]]]
         cells = np.hstack([np.sort(u, axis=1), np.sort(v, axis=1)])
         inside = (cells[:, ::2] >= [surface.u[0], surface.v[0]]) & (cells[:, 1::2] <= [surface.u[-1], surface.v[-1]])
         near = deviations(surface, view, cells).sum(axis=1) <= OFF * slack
-        right[own] = near & inside.all(axis=1) & np.isfinite(start[own] + end[own]).all(axis=1)
+        points = surface.points(u, v)
+        image = placed(view, points)
+        start[own], end[own] = image.swapaxes(0, 1)
+        along = ~np.isin(word, ["parameter", "section"])
+        for axis, values in enumerate(items[item]["parameters"]):
+            nearest = np.array([*values, np.inf])[np.abs(np.subtract.outer(ends[own, axis], [*values, 1e300])).argmin(axis=1)]
+            there = surface.points(*(nearest[:, None] + 0.0 * u, v) if axis == 0 else (u, nearest[:, None] + 0.0 * v))
+            along |= (word == "parameter") & (np.abs(placed(view, there) - image) <= slack).all(axis=(1, 2))
+        for *normal, offset in items[item]["planes"]:
+            above = (points * normal).sum(axis=-1) - offset
+            there = points - above[..., None] * np.array(normal) / max(float(np.square(normal).sum()), LEAST)
+            along |= (word == "section") & (np.abs(placed(view, there) - image) <= slack).all(axis=(1, 2))
+        right[own] = near & along & inside.all(axis=1) & np.isfinite(start[own] + end[own]).all(axis=1)
     for share, at, tip in ((parts.low, start, 0.0), (parts.high, end, 1.0)):
         way = at - lines.at(parts.line, share)
         right &= (np.hypot(*way.T[:2]) <= slack) & ((share != tip) | (np.abs(way[:, 2]) <= DEEP * slack))
@@ -313,6 +324,12 @@ def on_surfaces(lines: Segments, rows: Any, patches: list[Any], view: Floats, sl
     order = order[right[order]]
     pieces = Segments(start, end, lines.owner[parts.line], np.full(len(kept), slack))
     return take(pieces, order), take(parts, order)
+
+
+def placed(view: Floats, points: Floats) -> Floats:
+    """(...,3) the image of points (...,3) in the world."""
+    with np.errstate(all="ignore"):
+        return image_of(view, points.reshape(-1, 3))[0].reshape(points.shape)
 
 
 def model_of(drawing: Any, certificate: Any) -> Model:
@@ -374,7 +391,7 @@ def model_of(drawing: Any, certificate: Any) -> Model:
     of_kind = np.isin(kind, [*may, *FACE_KINDS])[strokes.owner] & (strokes.length > 4.0 * width)
     on = np.isin(names, [name for name, certified in smooth.items() if certified])
     lifted = on[strokes.owner]
-    pieces, told = on_surfaces(strokes, certificate["on_surfaces"], [one for _, one in patches], view, fine)
+    pieces, told = on_surfaces(strokes, certificate["on_surfaces"], kind, patches, items, view)
     pieces = take(pieces, lifted[told.line])
     bare = gaps(told, strokes.least(ratio_of(certificate)))
     bare = take(bare, (lifted & of_kind)[bare.line])
@@ -401,6 +418,8 @@ def check(drawing: Any, certificate: Any) -> tuple[list[str], list[str], dict[st
     unproven += model.coarse
     if (model.shift > certificate["width_mm"]).any():
         wrong.append(f"points of strokes are up to {model.shift.max():.4g} mm off their places in space")
+    only = {*model.kind[np.flatnonzero(model.lifted)].tolist()} & {"isophote", "integral", "pattern", "intersection"}
+    unproven += [f"that each {word} stroke on a surface, where it is, is one" for word in sorted(only)]
     unproven += [f"strokes of the kind {word}" for word in sorted({*model.kind.tolist()} - {*model.may, *FACE_KINDS})]
     faults = (faults(model, certificate) for faults in (check_places, check_sight, check_missing, check_contours))
     for what, lines, parts, open_ in (fault for some in faults for fault in some if len(fault[2].line)):
@@ -426,7 +445,7 @@ def check(drawing: Any, certificate: Any) -> tuple[list[str], list[str], dict[st
 def check_places(model: Model, certificate: Any) -> Iterator[Fault]:
     """Strokes are on lines of their kind, and drawn once."""
     ratio, fine, long = ratio_of(certificate), certificate["smooth_mm"], take(model.strokes, model.proved)
-    yield "on no surface, of stroke", model.whole, model.bare, 0
+    yield "on no surface, or no such line of it, of stroke", model.whole, model.bare, 0
     for word in np.unique(model.kind[long.owner]).tolist():
         own = take(long, (model.kind[long.owner] == word) & (~model.lifted[long.owner] | np.isin(word, EDGE_KINDS)))
         mesh = take(model.sides, model.may[word]) if word in model.may else None
@@ -492,7 +511,7 @@ def check_contours(model: Model, certificate: Any) -> Iterator[Fault]:
     left &= reaches(place, left, ratio_of(certificate) * fine)
     yield "contour neither drawn nor hidden, of item", lines, take(parts, left & ~maybe & sure), False
     yield "contour that may be left out, of item", lines, take(parts, left & ~maybe & ~sure), 2
-    yield "OPEN", lines, take(parts, left & maybe), 2
+    yield "contour beside outlines, drawn or hidden, of item", lines, take(parts, left & maybe), 2
     if (gap := certificate["hidden_gap_mm"]) is not None:
         bare = sure.copy()
         bare[joined(parts_near(model.strokes, cells, fine + gap)).by] = False
