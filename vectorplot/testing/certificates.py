@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Literal, cast
 import numpy as np
 from numpy.typing import ArrayLike
 
-from vectorplot.arrays import Floats, Ints
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.backends.json import json_bytes, plain
 from vectorplot.drawing.drawing import Drawing
 from vectorplot.drawing.finishing import DASH_MM
@@ -513,21 +513,31 @@ def _on_surfaces(
         if own:
             patches = [shapes.patch_of(row) for row in item["surfaces"]]
             ways = [np.array([*strokes[k]["points3d"], *strokes[k]["points3d"][: strokes[k]["closed"]]]) for k in own]
-            found.append(_pieces(own, ways, patches, rows, smooth_mm) + [0, 0, 0, 0, first, 0, 0, 0, 0])
+            values = [item["parameters"] if strokes[k]["kind"] == "parameter" else [[], []] for k in own]
+            found.append(_pieces(own, ways, values, patches, rows, smooth_mm) + [0, 0, 0, 0, first, 0, 0, 0, 0])
         first += len(parts)
     table = np.concatenate([np.zeros((0, 9)), *found])
     return [[int(a), int(b), c, d, int(e), *rest] for a, b, c, d, e, *rest in table.tolist()]
 
 
-def _pieces(own: list[int], ways: list[Floats], patches: list[shapes.Patch], rows: Floats, slack: float) -> Floats:
-    """(n,9) such rows of strokes by their numbers and points in the world, on patches of one item."""
+def _pieces(
+    own: list[int], ways: list[Floats], values: list[Any], patches: list[shapes.Patch], rows: Floats, slack: float
+) -> Floats:
+    """(n,9) such rows of strokes by their numbers and points in the world, on patches of one item; values: those of u
+    and of v on one of which a stroke runs, if it is a parameter line."""
     points, count = np.concatenate(ways), np.array([len(way) for way in ways])
     stroke = np.repeat(np.arange(len(own)), count)
     begin = np.flatnonzero(stroke[:-1] == stroke[1:])
     names = np.stack([np.array(own)[stroke[begin]], begin - (np.cumsum(count) - count)[stroke[begin]]], axis=1)
     on = [_feet(patch, points, rows) for patch in patches]
-    off = np.stack([np.maximum(away[begin], away[begin + 1]) for _, away in on])
     page = points_on(rows, points)[:, :2]
+    for patch, (feet, _) in zip(patches, on, strict=True):
+        held = np.zeros(feet.shape, dtype=np.bool_)
+        for number, lines in enumerate(values):
+            _snap(feet, held, np.flatnonzero(stroke == number), lines)
+        lined = held.any(axis=1)
+        feet[lined] = _stepped(patch, rows, feet[lined], page[lined], (False, False), held[lined])
+    off = np.stack([np.maximum(away[begin], away[begin + 1]) for _, away in on])
     found = []
     for number, (patch, (place, _)) in enumerate(zip(patches, on, strict=True)):
         chosen = begin[off.argmin(axis=0) == number]
@@ -551,10 +561,10 @@ def _pieces(own: list[int], ways: list[Floats], patches: list[shapes.Patch], row
                 break
             middle, at = 0.5 * (rows_of[bad, 2] + rows_of[bad, 3]), ends[bad].mean(axis=1)
             way = lines[bad, 1] - lines[bad, 0]
-            off = points_on(rows, patch.points(*at.T))[:, :2] - lines[bad, 0]
-            share = (off * way).sum(axis=1) / np.maximum((way * way).sum(axis=1), _TINY)
+            ahead = points_on(rows, patch.points(*at.T))[:, :2] - lines[bad, 0]
+            share = (ahead * way).sum(axis=1) / np.maximum((way * way).sum(axis=1), _TINY)
             # Straight on in u and v where that is below the line, as on parameter lines; else what is below its middle.
-            straight = np.hypot(*(off - share[:, None] * way).T) < _BESIDE * slack
+            straight = np.hypot(*(ahead - share[:, None] * way).T) < _BESIDE * slack
             straight &= (share > rows_of[bad, 2]) & (share < rows_of[bad, 3])
             below = _stepped(patch, rows, at, lines[bad, 0] + middle[:, None] * way, closed)
             at, middle = np.where(straight[:, None], at, below), np.where(straight, share, middle)
@@ -569,6 +579,25 @@ def _pieces(own: list[int], ways: list[Floats], patches: list[shapes.Patch], row
         found.append(np.column_stack([rows_of, np.full(len(ends), number), ends.reshape(-1, 4)]))
     return np.concatenate(found)
 
+
+def _snap(feet: Floats, held: Bools, which: Ints, lines: list[list[float]]) -> None:
+    """Put some u and v on the parameter line that they are nearest to, all on the same."""
+    best = np.inf
+    for axis, values in enumerate(lines):
+        if values:
+            away = np.abs(np.subtract.outer(feet[which, axis], values))
+            far = np.median(away, axis=0)
+            if far.min() < best:
+                best, chosen = float(far.min()), (axis, values[int(far.argmin())])
+    if best < _ON_LINE:
+        # Where the surface closes, both ends of the range are meant.
+        near = np.abs(feet[which, chosen[0]] - chosen[1]) < 0.5
+        feet[which[near], chosen[0]] = chosen[1]
+        held[which[near], chosen[0]] = True
+
+
+_ON_LINE = 1e-2
+"""Vertices of parameter lines are no farther from these, in u and v."""
 
 _BESIDE = 0.6
 """Curves are so far beside their chords at most, as a part of what is left open."""
@@ -650,8 +679,11 @@ _STEPS, DAMPING = 6, 1e-3
 """Steps of Levenberg and Marquardt's method, and how strongly they are damped."""
 
 
-def _stepped(patch: shapes.Patch, rows: Floats, place: Floats, target: Floats, closed: Any) -> Floats:
-    """(n,2) u and v, near given ones, whose image is at places (n,2) on the page, or (n,3); beside contours near them."""
+def _stepped(
+    patch: shapes.Patch, rows: Floats, place: Floats, target: Floats, closed: Any, held: Bools | bool = False
+) -> Floats:
+    """(n,2) u and v, near given ones, whose image is at places (n,2) on the page, or (n,3); beside contours near them;
+    closed: in which of u and v it closes; held (n,2): those that remain."""
     size = target.shape[1]
     low, high = np.array([patch.u[0], patch.v[0]]), np.array([patch.u[-1], patch.v[-1]])
     low, high = np.where(closed, -np.inf, low), np.where(closed, np.inf, high)
@@ -659,9 +691,10 @@ def _stepped(patch: shapes.Patch, rows: Floats, place: Floats, target: Floats, c
         jets = patch.jets(rows, np.repeat(place, 2, axis=1))[:size]
         at = np.stack([np.broadcast_to(one.value.low, len(place)) for one in jets], axis=1)
         slope = np.stack([shapes.numbers(one.slopes, len(place)) for one in jets], axis=1)
+        slope = np.where(np.broadcast_to(held, place.shape)[:, None], 0.0, slope)
         (a, b), c = (slope * slope).sum(axis=1).T, (slope[..., 0] * slope[..., 1]).sum(axis=1)
         damping = DAMPING * (a + b)
-        a, b = a + damping * (a > 0.0), b + damping
+        a, b = a + damping, b + damping
         p, q = (slope * (target - at)[..., None]).sum(axis=1).T
         below = np.maximum(a * b - c * c, _TINY)
         step = np.stack([b * p - c * q, a * q - c * p], axis=1) / below[:, None]
