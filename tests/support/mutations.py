@@ -38,7 +38,7 @@ SCENES = (
 )
 """Scenes of data/ that consist of meshes."""
 
-SMOOTH = ("asymptotic_lines", "capped", "cyclide", "house", "mixed", "ruled", "slices", "torus")
+SMOOTH = ("asymptotic_lines", "capped", "house", "mixed", "ruled", "slices", "torus")
 """Those with balls, rods, cones, rings and other surfaces by formulas."""
 
 SMOOTH_SCALE = 16.0
@@ -75,7 +75,9 @@ def least(drawing):
 
 def some(rng, drawing, wanted):
     """The number of a stroke that is wanted and long enough to be seen; None where there is none."""
-    found = [k for k, stroke in enumerate(drawing["strokes"]) if wanted(stroke) and length(stroke) > 4.0 * least(drawing)]
+    found = [
+        k for k, stroke in enumerate(drawing["strokes"]) if wanted(stroke) and length(stroke) > 4.0 * least(drawing)
+    ]
     return int(rng.choice(found)) if found else None
 
 

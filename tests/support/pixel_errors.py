@@ -40,7 +40,9 @@ def averages(fine):
 def outside(picture, fine, radius):
     """The share of pixels that no picture can have in which everything is where it should be, but for a radius."""
     foot = disc(radius)[:, :, None]
-    low, high = (averages(filtered(fine, footprint=foot, mode="nearest")) for filtered in (minimum_filter, maximum_filter))
+    low, high = (
+        averages(filtered(fine, footprint=foot, mode="nearest")) for filtered in (minimum_filter, maximum_filter)
+    )
     return float(((picture < low - SHADES) | (picture > high + SHADES)).any(axis=2).mean())
 
 

@@ -13,13 +13,13 @@ from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.backends.json import json_bytes, plain
-from vectorplot.drawing.drawing import Drawing
-from vectorplot.drawing.finishing import DASH_MM
-from vectorplot.drawing.pens import Style, style_of_scene
 from vectorplot.curves.curve import is_curve
 from vectorplot.curves.derivatives import NumericFunction
 from vectorplot.curves.families import Circle, Helix, Line
 from vectorplot.curves.placed_curves import FunctionCurve
+from vectorplot.drawing.drawing import Drawing
+from vectorplot.drawing.finishing import DASH_MM
+from vectorplot.drawing.pens import Style, style_of_scene
 from vectorplot.geometry import ragged
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
@@ -52,7 +52,8 @@ from vectorplot.surfaces.quadrics import (
 from vectorplot.surfaces.surface import Surface
 from vectorplot.surfaces.swept import Rotoid, Screw, SpiralMotion, Swept, Translation
 from vectorplot.surfaces.tori import Torus
-from vectorplot.testing import certified_shapes as shapes
+from vectorplot.testing import certified_image as image
+from vectorplot.testing import certified_surfaces as shapes
 from vectorplot.testing import check_certificate as checker
 from vectorplot.tolerances import CERTIFIED_MM, ROUNDING
 from vectorplot.visibility.polyhedra.lines import kinds_of
@@ -230,7 +231,7 @@ def certificate(
     gap = max((layer.pen.dash_mm[1] for layer in drawing.layers if layer.pen.dash_mm), default=DASH_MM[1])
     parts = [surfaces_of(item.shape) for item in items]
     netted = [np.asarray(world), *(part.patch.points(*part.patch.grid()[:, ::2].T) for one in parts for part in one)]
-    rows = checker.image_rows(np.array(found["page_from_world"]), np.concatenate(netted))
+    rows = image.image_rows(np.array(found["page_from_world"]), np.concatenate(netted))
     partial = _broken(drawing)
     said = [f"that {partial} are complete"] if partial else []
     content: dict[str, Any] = {
@@ -243,7 +244,8 @@ def certificate(
         "smooth_mm": float(smooth_mm),
         "crease_angle_deg": float(crease_angle_deg),
         "hidden_gap_mm": {"none": None, "solid": 0.0, "dashed": STRETCHED * max(gap, DASH_MM[1])}[hidden],
-        "not_certified": said + [line for item, one in zip(items, parts, strict=True) for line in _not_certified(item, kinds, one)],
+        "not_certified": said
+        + [line for item, one in zip(items, parts, strict=True) for line in _not_certified(item, kinds, one)],
         "items": [
             {
                 "name": item.name,
@@ -452,7 +454,9 @@ def _curve(curve: object, name: str) -> tuple[str, str, str] | None:
             rise = np.zeros(3) if isinstance(curve, Circle) else curve._upwards
             e, f, _ = circle.radius * circle.frame
             rows = zip(e.tolist(), f.tolist(), rise.tolist(), strict=True)
-            return _moved([f"({a!r})*cos({name})+({b!r})*sin({name})+({c!r})*{name}" for a, b, c in rows], circle.centre)
+            return _moved(
+                [f"({a!r})*cos({name})+({b!r})*sin({name})+({c!r})*{name}" for a, b, c in rows], circle.centre
+            )
         case FunctionCurve():
             return _written(curve.function, **({} if name == "t" else {name: "t"}))
     return None
@@ -646,7 +650,7 @@ def _cut_at_seam(rows: Floats, ends: Floats, axis: int, knots: Floats) -> tuple[
 
 def points_on(rows: Floats, points: Floats) -> Floats:
     """(n,3) the image of points."""
-    return checker.image_of(rows, points)[0]
+    return image.image_of(rows, points)[0]
 
 
 def _closed(patch: shapes.Patch) -> tuple[bool, bool]:
@@ -744,26 +748,26 @@ def _claims(model: checker.Model) -> dict[str, Any]:
     """The strokes that are clear, and what hides each of the others, and of each part of a line that is not drawn."""
     owner, segment = model.strokes.owner, checker.places_of(model.strokes)
     dark = np.flatnonzero(model.hidden[owner])
-    strokes = _rows(segment[dark], _hidden(model, checker.take(model.strokes, dark)))
-    lines = _rows(model.ends[model.wanted], _hidden(model, checker.take(model.sides, model.wanted)))
+    strokes = _rows(segment[dark], _hidden(model, image.take(model.strokes, dark)))
+    lines = _rows(model.ends[model.wanted], _hidden(model, image.take(model.sides, model.wanted)))
     return {"clear": np.flatnonzero(~model.hidden).tolist(), "hidden_strokes": strokes, "hidden_lines": lines}
 
 
-def _rows(names: Ints, parts: checker.Parts) -> list[list[Any]]:
+def _rows(names: Ints, parts: image.Parts) -> list[list[Any]]:
     """Parts of segments with names (n,2): two numbers, from where to where, and by which triangle each is hidden."""
     columns = zip(*names[parts.line].T.tolist(), *(column.tolist() for column in parts[1:]), strict=True)
     return [list(row) for row in columns]
 
 
-def _hidden(model: checker.Model, lines: checker.Segments) -> checker.Parts:
+def _hidden(model: checker.Model, lines: image.Segments) -> image.Parts:
     """The parts of segments that triangles hide, by as few of these as possible, one after the other.
 
     Of all that begin before the part so far ends the one that ends last goes on (the greedy cover of an interval).
     """
-    parts = checker.joined(checker.hidden_parts(lines, model.of, 0.0))
+    parts = image.joined(image.hidden_parts(lines, model.of, 0.0))
     if not len(parts.line):
         return parts
-    parts = checker.take(parts, np.lexsort((parts.low, parts.line)))
+    parts = image.take(parts, np.lexsort((parts.low, parts.line)))
     shift = 4.0 * np.arange(len(lines.owner) + 1)
     key, last = parts.low + shift[parts.line], np.searchsorted(parts.line, np.arange(len(lines.owner)), side="right")
     best = _last_maximum(parts.high + shift[parts.line])
@@ -780,9 +784,9 @@ def _hidden(model: checker.Model, lines: checker.Segments) -> checker.Parts:
         kept = chosen < last[line]
         line, reach, chosen, goes_on = line[kept], reach[kept], chosen[kept], goes_on[kept]
         low = np.where(goes_on, np.maximum(reach, parts.low[chosen]), parts.low[chosen])
-        found.append(checker.Parts(line, low, parts.high[chosen], parts.by[chosen]))
+        found.append(image.Parts(line, low, parts.high[chosen], parts.by[chosen]))
         reach = np.maximum(reach, parts.high[chosen])
-    return checker.joined(found)
+    return image.joined(found)
 
 
 def _last_maximum(values: Floats) -> Ints:

@@ -1,4 +1,4 @@
-"""The shapes of a certificate in the image: meshes, and nets of surfaces whose errors are proved by interval arithmetic.
+"""Surfaces of a certificate: formulas evaluated with their derivatives on whole cells, nets, and where contours are.
 
 It belongs to `check_certificate.py`, and imports nothing but the standard library and numpy either. A surface is three
 formulas of u and v, and the lines of a net. Formulas are parsed, never run as code, and evaluated with their two orders
@@ -18,18 +18,11 @@ from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.intp]
-Bools = NDArray[np.bool_]
 
-LEAST, SEAM_MM, STRICT_MM = 1e-300, 1e-8, 1e-6
-"""The least divisor; rounding moves points less; what is no farther behind a face is not hidden by it."""
-WELD_MM, ULP, CHUNK = 1e-6, 4.5e-16, 1 << 13
-"""Points of nets that are no farther apart are one; by so much results of rounding are widened; cells held at once."""
-OFF, MOST_CELLS = 0.5, 1 << 18
-"""Nets are off by this part of their slack at most; cells of nets and of contours, each, at most."""
-LONGEST, DEEPEST = 4000, 24
-"""Characters of a formula; rounds in which cells are refined."""
-ANGLE_DEG, NET_DEG = 1e-3, 15.0
-"""Edges that turn by the crease angle, but for so much, may be drawn or not: on meshes, and where nets meet."""
+LEAST, ULP, CHUNK = 1e-300, 4.5e-16, 1 << 13
+"""The least divisor; by so much results of rounding are widened; cells that are held at once."""
+MOST_CELLS, LONGEST, DEEPEST = 1 << 18, 4000, 24
+"""Cells of a net and of its contours, each, at most; characters of a formula; rounds in which cells are refined."""
 
 
 class Range:
@@ -269,6 +262,14 @@ def sizes(ranges: Any, count: int) -> Floats:
     return np.stack([np.zeros(count) if one is None else np.broadcast_to(one.size, count) for one in ranges], axis=1)
 
 
+def numbers(ranges: Any, count: int) -> Floats:
+    """(count,k) the middles of k ranges, of which None is zero."""
+    return np.stack(
+        [np.zeros(count) if one is None else np.broadcast_to(0.5 * (one.low + one.high), count) for one in ranges],
+        axis=1,
+    )
+
+
 def deviations(patch: Patch, rows: Floats, cells: Floats) -> Floats:
     """(n,3) how far the two triangles of each cell are off the surface at most, in mm: for bends by u, by u and v, by v.
 
@@ -283,13 +284,13 @@ def deviations(patch: Patch, rows: Floats, cells: Floats) -> Floats:
     return in_chunks(some, cells)
 
 
+MINUS = Range(-np.ones(1), -np.ones(1))
+
+
 def jacobian(x: Jet, y: Jet) -> Range | None:
     """x_u y_v - x_v y_u: zero on contours."""
     (xu, xv), (yu, yv) = x.slopes, y.slopes
     return plus(by(xu, yv), by(by(xv, yu), MINUS))
-
-
-MINUS = Range(-np.ones(1), -np.ones(1))
 
 
 def mean_jacobian(patch: Patch, rows: Floats, cells: Floats) -> tuple[Range | None, Floats, list[Jet]]:
@@ -339,7 +340,9 @@ def contour_cells(patch: Patch, rows: Floats, size: float) -> tuple[Floats, bool
 
     def described(cells: Floats) -> Floats:
         middle, steps = cells.reshape(-1, 2, 2).mean(axis=2), 0.5 * np.diff(cells.reshape(-1, 2, 2))[..., 0]
-        half = np.stack([(sizes(one.slopes, len(cells)) * steps).sum(axis=1) for one in patch.jets(rows, cells)], axis=1)
+        half = np.stack(
+            [(sizes(one.slopes, len(cells)) * steps).sum(axis=1) for one in patch.jets(rows, cells)], axis=1
+        )
         jets = patch.jets(rows, np.repeat(middle, 2, axis=1))
         place = np.stack([np.broadcast_to(one.value.low, len(cells)) for one in jets], axis=1)
         slopes, bends = (np.stack([numbers(one[k], len(cells)) for one in jets], axis=2) for k in (np.s_[1], np.s_[2]))
@@ -359,60 +362,9 @@ def contour_cells(patch: Patch, rows: Floats, size: float) -> tuple[Floats, bool
     return in_chunks(described, np.concatenate(small)), not len(cells)
 
 
-def numbers(ranges: Any, count: int) -> Floats:
-    """(count,k) the middles of k ranges, of which None is zero."""
-    return np.stack(
-        [np.zeros(count) if one is None else np.broadcast_to(0.5 * (one.low + one.high), count) for one in ranges], axis=1
-    )
-
-
 def net_of(patch: Patch) -> tuple[Floats, Ints]:
     """The points (n,3) of a net in the world, and its triangles (t,3), two for each cell, one after the other."""
     u, v = np.meshgrid(patch.u, patch.v, indexing="ij")
     place = np.arange(u.size).reshape(u.shape)
     a, b, c, d = place[:-1, :-1], place[1:, :-1], place[1:, 1:], place[:-1, 1:]
     return patch.points(u, v).reshape(-1, 3), np.stack([a, b, c, a, c, d], axis=-1).reshape(-1, 3)
-
-
-def welded(image: Floats) -> Ints:
-    """(n,) the first of the points that are at the place of each: seams of nets, and poles."""
-    _, first, place = np.unique(np.floor(image / WELD_MM + 0.37), axis=0, return_index=True, return_inverse=True)
-    return np.asarray(first[place.ravel()])
-
-
-def edges_of(
-    world: Floats, image: Floats, triangles: Ints, angle_deg: float, doubt: float, patch: Ints
-) -> tuple[Any, ...]:
-    """The edges: their vertices (e,2); a triangle at each (e,); by kind, whether they may and must be drawn as such;
-    (t,3) at which sides of triangles the image of the surface ends, without a triangle on the other side. doubt: mm
-    within which a triangle may be on either side; patch (t,): the surface, -1 on meshes: edges within one are no lines."""
-    one, two, apex = (np.roll(triangles, -step, axis=1).ravel() for step in range(3))
-    key, n = np.minimum(one, two) * len(world) + np.maximum(one, two), len(world)
-    keys, first, edge, count = np.unique(key, return_index=True, return_inverse=True, return_counts=True)
-    ends, edge = np.stack([keys // max(n, 1), keys % max(n, 1)], axis=1), edge.ravel()
-    way, arm = (image[to] - image[ends[edge, 0]] for to in (ends[edge, 1], apex))
-    beside = (way[:, 0] * arm[:, 1] - way[:, 1] * arm[:, 0]) / np.maximum(np.hypot(way[:, 0], way[:, 1]), LEAST)
-    one_sided, facing = [], np.zeros(len(keys), dtype=np.bool_)
-    for zero in (doubt, SEAM_MM):
-        left, right = (np.bincount(edge, weights=s * beside > zero, minlength=len(keys)) > 0.0 for s in (1.0, -1.0))
-        one_sided.append(~(left & right))
-        facing = left | right
-    # The directions in which faces leave an edge: two faces are flat where these are opposite.
-    way, arm = (world[to] - world[ends[edge, 0]] for to in (ends[edge, 1], apex))
-    arm -= ((arm * way).sum(axis=1) / np.maximum((way * way).sum(axis=1), LEAST))[:, None] * way
-    height = np.linalg.norm(arm, axis=1)
-    arm /= np.maximum(height, LEAST)[:, None]
-    start = np.searchsorted(edge, np.arange(len(keys)), sorter=(order := np.argsort(edge, kind="stable")))
-    f, g = (order[np.minimum(start + step, len(order) - 1)] for step in (0, 1))
-    apart, alike = (np.linalg.norm(arm[f] + sign * arm[g], axis=1) for sign in (-1.0, 1.0))
-    turn = 180.0 - 2.0 * np.degrees(np.arctan2(apart, alike))
-    sure = np.minimum(height[f], height[g]) > 1e-9 * np.abs(world).max(initial=0.0)
-    across = (patch[f // 3] < 0) | (patch[f // 3] != patch[g // 3])
-    may = {"contour": (count > 1) & one_sided[0] & across, "boundary": count == 1, "edges": across}
-    may["crease"] = (count > 2) | (count == 2) & ((turn > angle_deg - ANGLE_DEG) | ~sure)
-    must = {"contour": (count > 1) & one_sided[1] & facing & across, "boundary": count == 1}
-    bent = turn > angle_deg + np.where(patch[f // 3] < 0, ANGLE_DEG, NET_DEG)
-    must["crease"] = (count == 2) & bent & sure & across
-    return ends, first // 3, may, must, one_sided[1][edge].reshape(triangles.shape)
-
-
