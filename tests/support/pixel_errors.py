@@ -1,5 +1,5 @@
-"""How far pixels are off: rendered pictures against one with 64 samples a pixel. ``python pixel_errors.py`` measures all
-scenes of data/, ``python pixel_errors.py gallery`` those that the scripts in examples/ draw, paint or render."""
+"""How far pixels are off: rendered pictures against one with 64 samples a pixel. ``python pixel_errors.py`` measures
+all scenes of data/, ``python pixel_errors.py gallery`` those that the scripts in examples/ draw, paint or render."""
 
 import importlib.util
 import sys
@@ -72,7 +72,7 @@ def of_data():
 
 
 def of_gallery():
-    """What the scripts in examples/ draw, paint and render, each scene of a script once; a script's name may come again."""
+    """What the scripts in examples/ draw, paint and render, each scene of a script once."""
     sys.path.append(str(ROOT / "examples"))
     for path in sorted((ROOT / "examples").glob("*.py")):
         spec, calls = importlib.util.spec_from_file_location(f"example_{path.stem}", path), []

@@ -229,9 +229,11 @@ def certificate(
         hidden = "dashed"
     margin = float(page_of(page, given).margin_mm)
     gap = max((layer.pen.dash_mm[1] for layer in drawing.layers if layer.pen.dash_mm), default=DASH_MM[1])
-    parts = [surfaces_of(item.shape) for item in items]
+    parts = [() if item.cut_by or item.is_cut_face else surfaces_of(item.shape) for item in items]
     netted = [np.asarray(world), *(part.patch.points(*part.patch.grid()[:, ::2].T) for one in parts for part in one)]
     rows = image.image_rows(np.array(found["page_from_world"]), np.concatenate(netted))
+    nets = _within_budget([_nets(one, rows, smooth_mm) for one in parts])
+    parts = [one if net else () for one, net in zip(parts, nets, strict=True)]
     partial = _broken(drawing)
     said = [f"that {partial} are complete"] if partial else []
     content: dict[str, Any] = {
@@ -252,7 +254,7 @@ def certificate(
                 "hides": bool(view.occludes[number]),
                 "smooth": not isinstance(item.shape, Mesh),
                 **_conditions(item, parts[number]),
-                "surfaces": _nets(parts[number], rows, smooth_mm),
+                "surfaces": nets[number],
                 "lines": [] if partial else _complete(item, kinds),
                 "vertices": plain(world[first[number] : first[number + 1]]),
                 "triangles": (triangles[owner == number] - first[number]).tolist(),
@@ -297,7 +299,7 @@ def _not_certified(item: Item, kinds: frozenset[LineKind], surfaces: tuple[_Surf
     if is_curve(item.shape):
         return []
     if not isinstance(item.shape, Mesh) and not surfaces:
-        return [f"what {item.name} shows and hides, which is a smooth shape without formulas"]
+        return [f"what {item.name} shows and hides, which is a smooth shape without formulas, or too large"]
     left = {kind.word for kind in kinds_of(item, kinds)} & {*checker.EDGE_KINDS} - {*_complete(item, kinds)}
     there = surfaces or item.mesh.face_count
     return [f"that each {', '.join(sorted(left))} of {item.name} is there"] if left and there else []
@@ -315,8 +317,8 @@ class _Surface:
     patch: shapes.Patch
 
 
-def surfaces_of(shape: object) -> tuple[_Surface, ...]:
-    """A shape as surfaces by formulas, caps and mantles apart; none where it has no formulas, or they give other points."""
+def surfaces_of(shape: Any) -> tuple[_Surface, ...]:
+    """A shape as surfaces by formulas, caps and mantles apart; none where there are none, or they give other points."""
     place = np.hstack([np.eye(3), np.zeros((3, 1))])
     while isinstance(shape, PlacedSurface):
         matrix, shift = np.asarray(shape.matrix), np.asarray(shape.shift)
@@ -384,7 +386,7 @@ def _formulas(shape: object) -> tuple[str, str, str] | None:
                 f"{c}*v+{s}*u",
             )
         case FunctionSurface():
-            return _written(shape.function)
+            return cast("tuple[str, str, str] | None", _written(shape.function))
         case Graph():
             height = _written(shape.heights, u="x", v="y")
             return None if height is None else ("u", "v", *height)
@@ -458,7 +460,7 @@ def _curve(curve: object, name: str) -> tuple[str, str, str] | None:
                 [f"({a!r})*cos({name})+({b!r})*sin({name})+({c!r})*{name}" for a, b, c in rows], circle.centre
             )
         case FunctionCurve():
-            return _written(curve.function, **({} if name == "t" else {name: "t"}))
+            return cast("tuple[str, str, str] | None", _written(curve.function, **{name: "t"}))
     return None
 
 
@@ -480,6 +482,13 @@ def _carried(curve: tuple[str, str, str], motion: object) -> tuple[str, str, str
         case _:
             return None
     return f"{x}*cos(v)-{y}*sin(v)", f"{x}*sin(v)+{y}*cos(v)", z
+
+
+def _within_budget(nets: list[list[dict[str, Any]]]) -> list[list[dict[str, Any]]]:
+    """The nets of items, without those after which there were too many cells."""
+    cells = [sum((len(net["u"]) - 1) * (len(net["v"]) - 1) for net in own) for own in nets]
+    fits = np.cumsum(cells) <= 2 * shapes.MOST_CELLS
+    return [own if fit else [] for own, fit in zip(nets, fits.tolist(), strict=True)]
 
 
 def _conditions(item: Item, surfaces: tuple[_Surface, ...]) -> dict[str, list[list[float]]]:
@@ -518,7 +527,9 @@ def _on_surfaces(
             patches = [shapes.patch_of(row) for row in item["surfaces"]]
             ways = [np.array([*strokes[k]["points3d"], *strokes[k]["points3d"][: strokes[k]["closed"]]]) for k in own]
             values = [item["parameters"] if strokes[k]["kind"] == "parameter" else [[], []] for k in own]
-            found.append(_pieces(own, ways, values, patches, rows, smooth_mm) + [0, 0, 0, 0, first, 0, 0, 0, 0])
+            pieces = _pieces(own, ways, values, patches, rows, smooth_mm)
+            pieces[:, 4] += first
+            found.append(pieces)
         first += len(parts)
     table = np.concatenate([np.zeros((0, 9)), *found])
     return [[int(a), int(b), c, d, int(e), *rest] for a, b, c, d, e, *rest in table.tolist()]

@@ -1,7 +1,7 @@
 """What is compared in a certificate: segments, triangles, edges and cells in the image, and parts of segments.
 
-It belongs to `check_certificate.py`, and imports nothing but the standard library and numpy either. Parts of segments are
-found by linear functions at both ends: what a triangle hides is convex.
+It belongs to `check_certificate.py`, and imports nothing but the standard library and numpy either. Parts of segments
+are found by linear functions at both ends: what a triangle hides is convex.
 """
 
 from __future__ import annotations
@@ -20,8 +20,8 @@ Rows = TypeVar("Rows", bound="Segments | Parts")
 BLOCK, PAIRS = 64, 1 << 17
 """Segments that are compared with all others at once, and pairs that are held at once: all arrays are below 100 MB."""
 LEAST, SEAM_MM, STRICT_MM, WELD_MM = 1e-300, 1e-8, 1e-6, 1e-6
-"""The least divisor; faces hide so far beyond sides they share, and rounding moves points less; what is no farther behind
-a face is not hidden by it; points of nets that are no farther apart are one."""
+"""The least divisor; faces hide so far beyond sides they share, and rounding moves points less; what is no farther
+behind a face is not hidden by it; points of nets that are no farther apart are one."""
 ANGLE_DEG, NET_DEG = 1e-3, 15.0
 """Edges that turn by the crease angle, but for so much, may be drawn or not: on meshes, and where nets meet."""
 
@@ -62,10 +62,15 @@ def take(rows: Rows, which: Any) -> Rows:
     return type(rows)(*(column[which] for column in rows))
 
 
+def together(one: Segments, other: Segments) -> Segments:
+    """All segments of two."""
+    return Segments(*(np.concatenate(pair) for pair in zip(one, other, strict=True)))
+
+
 class Triangles(NamedTuple):
     """Triangles in the image: corners (t,3,3); halves (t,4,4): x, y, z, 1 times them are mm inside of each side, and mm
-    behind; outline (t,3): where the image of the surface ends; hiding (h,): all that hide and are no narrow strips; off,
-    slack (t,): mm that each is off its surface, and that are left open beside it."""
+    behind; outline (t,3): where the image of the surface ends; hiding (h,): all that hide and are no narrow strips;
+    off, slack (t,): mm that each is off its surface, and that are left open beside it."""
 
     corners: Floats
     halves: Floats
@@ -178,7 +183,7 @@ def lying_parts(lines: Segments, of: Triangles) -> Iterator[Parts]:
 
 
 def parts_along(lines: Segments, others: Segments, share: float, depth: float) -> Iterator[Parts]:
-    """Parts of segments that are within a share of the slack of others; depth: how much heights count, on the page 0."""
+    """Parts of segments that are within a share of the slack of others; depth: how heights count, on the page 0."""
     start, end, one, two = (side * [1.0, 1.0, depth] for side in (*lines[:2], *others[:2]))
     length = np.linalg.norm(two - one, axis=1)
     unit = (two - one) / np.maximum(length, LEAST)[:, None]
@@ -244,7 +249,7 @@ def edges_of(
 ) -> tuple[Any, ...]:
     """The edges: their vertices (e,2); a triangle at each (e,); by kind, whether they may and must be drawn as such;
     (t,3) at which sides of triangles the image of the surface ends, without a triangle on the other side. doubt: mm
-    within which a triangle may be on either side; patch (t,): the surface, -1 on meshes: edges within one are no lines."""
+    within which a triangle may be on either side; patch (t,): the surface, -1 on meshes; edges within one are none."""
     one, two, apex = (np.roll(triangles, -step, axis=1).ravel() for step in range(3))
     key, n = np.minimum(one, two) * len(world) + np.maximum(one, two), len(world)
     keys, first, edge, count = np.unique(key, return_index=True, return_inverse=True, return_counts=True)

@@ -271,7 +271,7 @@ def numbers(ranges: Any, count: int) -> Floats:
 
 
 def deviations(patch: Patch, rows: Floats, cells: Floats) -> Floats:
-    """(n,3) how far the two triangles of each cell are off the surface at most, in mm: for bends by u, by u and v, by v.
+    """(n,3) how far the two triangles of each cell are off the surface at most, in mm: for bends by u, u and v, v.
 
     For triangles with legs a, b along u and v it is (a^2 f_uu + 2 a b f_uv + b^2 f_vv) / 8 at most.
     """
@@ -345,7 +345,8 @@ def contour_cells(patch: Patch, rows: Floats, size: float) -> tuple[Floats, bool
         )
         jets = patch.jets(rows, np.repeat(middle, 2, axis=1))
         place = np.stack([np.broadcast_to(one.value.low, len(cells)) for one in jets], axis=1)
-        slopes, bends = (np.stack([numbers(one[k], len(cells)) for one in jets], axis=2) for k in (np.s_[1], np.s_[2]))
+        columns = [one.slopes for one in jets], [one.bends for one in jets]
+        slopes, bends = (np.stack([numbers(of, len(cells)) for of in parts], axis=2) for parts in columns)
         normal = np.cross(slopes[:, 0], slopes[:, 1])[:, :2]
         normal /= np.maximum(np.hypot(*normal.T), LEAST)[:, None]
         # The way on the surface along the sight line, on which the image turns back: it bends away from its outside.

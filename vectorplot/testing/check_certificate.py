@@ -3,9 +3,9 @@
 All is taken into the image: x and y in mm on the page and a height z towards the eye, in which lines and planes stay
 what they are and sight lines run along -z. What a triangle hides there is convex: a segment is hidden by it if both its
 ends are, and clear if no triangle hides a part of it. Surfaces are nets of triangles, proved to be so near to them that
-what covers a disc of width_mm in the one covers its middle in the other (the degree of a map). Proved is, but for strips
-of width_mm beside outlines of what is in front and for parts shorter than size_mm, on surfaces as many times longer as
-smooth_mm is wider: each visible stroke is on a line of its kind, and clear; each hidden one is behind what is named;
+what covers a disc of width_mm in the one covers its middle in the other (the degree of a map). Proved is, but for
+strips of width_mm beside outlines of what is in front and for parts shorter than size_mm, where there are surfaces of
+smooth_mm and as many times longer: each visible stroke is on a line of its kind, and clear; each hidden one is behind what is named;
 each contour, crease and border that it says it has is drawn, or hidden. The rest is "not proven".
 The exit status: 0 all is proved, 1 something is wrong, 2 something is not proven, 3 bad files.
 """
@@ -33,8 +33,8 @@ FORMATS = ("vectorplot-drawing", "vectorplot-certificate")
 EDGE_KINDS = ("contour", "boundary", "crease")
 FACE_KINDS = ("intersection", "pattern", "section", "isophote", "parameter", "integral")
 OUTSIDE, DEEP, OFF = 3.0, 40.0, 0.5
-"""Times what is left open: so far outside of a contour one looks whether it is visible; strokes, and nets, may be so much
-off, in depth, and at all."""
+"""Times what is left open: so far outside of a contour one looks whether it is visible; strokes may be so much off in
+depth, and nets at all."""
 Fault = tuple[str, geo.Segments, geo.Parts, int]
 """What is wrong, where, and 0, or 1 where shapes without formulas may explain it, or 2 where it is just not proven."""
 
@@ -42,10 +42,11 @@ Fault = tuple[str, geo.Segments, geo.Parts, int]
 class Model(NamedTuple):
     """A drawing and the shapes of its certificate in the image. strokes: its segments, those on surfaces as pieces of
     these; whole: as they are drawn; bare: parts that should be on surfaces, and are not; lifted (m,): strokes on them;
-    proved (s,): segments of strokes to prove, without tiny ones; kind, hidden (m,): of each stroke; sides: edges of shapes; ends (e,2): their vertices; may: which of them each
-    kind may show; wanted (w,): those that are drawn or hidden; cells (c,9): where contours of surfaces are, see
-    contour_cells; drawn (c,): of which item, -1 where they need not be drawn; shift (p,): mm that points are off their places; off: mm that
-    rounding may do; smooth: something hides that is not certified; coarse: what is wrong with nets, a few words each."""
+    proved (s,): segments of strokes to prove, without tiny ones; kind, hidden (m,): of each stroke; sides: edges of
+    shapes; ends (e,2): their vertices; may: which of them each kind may show; wanted (w,): those that are drawn or
+    hidden; cells (c,9): where contours of surfaces are, see contour_cells; drawn (c,): of which item, -1 where they
+    need not be drawn; shift (p,): mm that points are off their places; off: mm that rounding may do; smooth: something
+    hides that is not certified; coarse: what is wrong with nets, a few words each."""
 
     strokes: geo.Segments
     whole: geo.Segments
@@ -93,7 +94,7 @@ def places_of(lines: geo.Segments) -> geo.Ints:
 def on_surfaces(
     lines: geo.Segments, rows: Any, kinds: Any, patches: Any, items: Any, view: geo.Floats
 ) -> tuple[geo.Segments, geo.Parts]:
-    """Straight pieces, which follow surfaces, of segments that do, parameter lines and sections those of their item; and
+    """Straight pieces, which follow surfaces, of segments that do, parameter lines and sections as their items say; and
     what parts these are. rows: the number of a segment (2), from, to, which surface, u and v at both ends (4)."""
     table, slack = stacked([rows], 9)[0], float(lines.slack.max(initial=0.0))
     parts, kept = named_parts(table, places_of(lines))
@@ -181,8 +182,8 @@ def model_of(drawing: Any, certificate: Any) -> Model:
         world, image, triangles, certificate["crease_angle_deg"], 0.01 * width, patch
     )
     # Edges of one surface count together.
-    number = np.where(patch[at] < 0, np.arange(len(ends)), len(ends) + patch[at])
-    sides = geo.Segments(image[ends[:, 0]], image[ends[:, 1]], number, slack[at])
+    places = np.where(patch[at] < 0, np.arange(len(ends)), len(ends) + patch[at])
+    sides = geo.Segments(image[ends[:, 0]], image[ends[:, 1]], places, slack[at])
     has = {word: np.array([word in one["lines"] for one in items], dtype=np.bool_)[item[at]] for word in EDGE_KINDS}
     wanted = np.logical_or.reduce([must[word] & has[word] for word in EDGE_KINDS]) & (sides.length > 4.0 * width)
     spots, hides = image[triangles], np.array([one["hides"] for one in items], dtype=np.bool_)[item]
@@ -198,16 +199,15 @@ def model_of(drawing: Any, certificate: Any) -> Model:
     pieces = geo.take(pieces, lifted[told.line])
     bare = geo.gaps(told, strokes.least(ratio_of(certificate)))
     bare = geo.take(bare, (lifted & of_kind)[bare.line])
-    every = geo.Segments(*map(np.concatenate, zip(geo.take(strokes, ~lifted), pieces, strict=True)))
-    every = geo.take(every, np.argsort(every.owner, kind="stable"))
-    proved = np.isin(kind, [*may, *FACE_KINDS])[every.owner] & (every.length > 4.0 * width)
-    proved &= ~np.isin(names, [name for name, certified in smooth.items() if not certified])[every.owner]
+    own = geo.together(geo.take(strokes, ~lifted), pieces)
+    own = geo.take(own, np.argsort(own.owner, kind="stable"))
+    proved = np.isin(kind, [*may, *FACE_KINDS])[own.owner] & (own.length > 4.0 * width)
+    proved &= ~np.isin(names, [name for name, certified in smooth.items() if not certified])[own.owner]
     shift = np.asarray(np.hypot(*(page - points[:, :2]).T))
-    rest = shift, off, any(one["smooth"] and one["hides"] and not one["surfaces"] for one in items), coarse
+    bare_smooth = any(one["smooth"] and one["hides"] and not one["surfaces"] for one in items)
     where = np.concatenate([np.zeros((0, 9)), *cells]), np.concatenate([np.zeros(0, dtype=np.intp), *drawn])
-    return Model(
-        every, strokes, bare, on, proved, kind, hidden > 0, sides, ends, may, np.flatnonzero(wanted), of, *where, *rest
-    )
+    lines = own, strokes, bare, on, proved, kind, hidden > 0, sides, ends, may, np.flatnonzero(wanted), of
+    return Model(*lines, *where, shift, off, bare_smooth, coarse)
 
 
 def check(drawing: Any, certificate: Any) -> tuple[list[str], list[str], dict[str, int]]:
@@ -338,7 +338,7 @@ def check_contours(model: Model, certificate: Any) -> Iterator[Fault]:
 
 
 def reaches(place: geo.Floats, which: geo.Bools, size: float) -> geo.Bools:
-    """(n,) which of some points have another one between half so far and so far on the page: not those of tiny ovals."""
+    """(n,) which of some points have another one between half so far and so far on the page: not those of ovals."""
     points, number, found = place[which], np.flatnonzero(which), np.zeros(len(place), dtype=np.bool_)
     room = np.array([size, size, np.inf])
     for one, other in geo.near(points, points, points - room, points + room):
