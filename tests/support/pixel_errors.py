@@ -17,6 +17,9 @@ import vectorplot as vp
 FINE = 8
 """Pixels of the fine picture along the side of one."""
 
+HALF = np.sqrt(0.5) / FINE
+"""A fine picture is off by half the diagonal of its pixels itself, in pixels of the other one."""
+
 SHADES = 3.0
 """Colours that differ by no more are the same, in steps of 255: shading is interpolated."""
 
@@ -52,16 +55,17 @@ def pixels(image):
 
 
 def error(scene, off_by, camera=None, size=(96, 72)):
-    """What was said of a promise, and the least radius in eighths of a pixel within which all pixels are right."""
+    """What was said of a promise, and the least radius in pixels within which all pixels are right."""
     reports = []
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         picture = pixels(vp.render(scene, camera, off_by=off_by, size=size, explain=reports.append))
         fine = pixels(vp.render(scene, camera, samples=1, shadows="exact", size=tuple(FINE * side for side in size)))
     said = next(one for one in reports if "promise" in one.name)
-    for eighths in range(1, 2 * FINE + 1):
-        if outside(picture, fine, eighths / FINE) <= OUTLIERS:
-            return said, eighths / FINE
+    steps = np.sqrt(sorted({a * a + b * b for a in range(2 * FINE) for b in range(2 * FINE)}))
+    for radius in steps[(steps > 0.0) & (steps < 2 * FINE)] / FINE:
+        if outside(picture, fine, radius) <= OUTLIERS:
+            return said, max(radius - HALF, 0.0)
     return said, np.inf
 
 

@@ -5,8 +5,8 @@ what they are and sight lines run along -z. What a triangle hides there is conve
 ends are, and clear if no triangle hides a part of it. Surfaces are nets of triangles, proved to be so near to them that
 what covers a disc of width_mm in the one covers its middle in the other (the degree of a map). Proved is, but for
 strips of width_mm beside outlines of what is in front and for parts shorter than size_mm, where there are surfaces of
-smooth_mm and as many times longer: each visible stroke is on a line of its kind, and clear; each hidden one is behind what is named;
-each contour, crease and border that it says it has is drawn, or hidden. The rest is "not proven".
+smooth_mm and as many times longer: each visible stroke is on a line of its kind, and clear; each hidden one is behind
+what is named; each contour, crease and border that it says it has is drawn, or hidden. The rest is "not proven".
 The exit status: 0 all is proved, 1 something is wrong, 2 something is not proven, 3 bad files.
 """
 
