@@ -1,6 +1,7 @@
 """How far pixels are off: rendered pictures against one with 64 samples a pixel. ``python pixel_errors.py`` measures
-all scenes of data/, ``python pixel_errors.py gallery`` those that the scripts in examples/ draw, paint or render."""
+all scenes of data/, ``python pixel_errors.py within`` whether these keep times, ``python pixel_errors.py gallery`` those that the scripts in examples/ draw, paint or render."""
 
+import dataclasses
 import importlib.util
 import sys
 import tempfile
@@ -13,12 +14,14 @@ import numpy as np
 from scipy.ndimage import maximum_filter, minimum_filter
 
 import vectorplot as vp
+from vectorplot.io.anything import scene_of
 
 FINE = 8
 """Pixels of the fine picture along the side of one."""
 
-HALF = np.sqrt(0.5) / FINE
-"""A fine picture is off by half the diagonal of its pixels itself, in pixels of the other one."""
+APART = np.sqrt(2.0) / FINE
+"""What a fine picture cannot tell, in pixels of the other one: edges, and samples of the other one, lie between its
+pixels, each by half a diagonal at most."""
 
 SHADES = 3.0
 """Colours that differ by no more are the same, in steps of 255: shading is interpolated."""
@@ -57,6 +60,8 @@ def pixels(image):
 def error(scene, off_by, camera=None, size=(96, 72)):
     """What was said of a promise, and the least radius in pixels within which all pixels are right."""
     reports = []
+    # Letters have a size in mm, and are other ones in a picture of more pixels.
+    scene = dataclasses.replace(scene_of(scene), labels=())
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         picture = pixels(vp.render(scene, camera, off_by=off_by, size=size, explain=reports.append))
@@ -65,7 +70,7 @@ def error(scene, off_by, camera=None, size=(96, 72)):
     steps = np.sqrt(sorted({a * a + b * b for a in range(2 * FINE) for b in range(2 * FINE)}))
     for radius in steps[(steps > 0.0) & (steps < 2 * FINE)] / FINE:
         if outside(picture, fine, radius) <= OUTLIERS:
-            return said, max(radius - HALF, 0.0)
+            return said, max(radius - APART, 0.0)
     return said, np.inf
 
 
@@ -103,8 +108,23 @@ def of_gallery():
 ROOT = Path(__file__).parents[2]
 
 
+def times():
+    """Whether pictures of data/ are done in a time."""
+    for name, scene, _ in of_data():
+        for seconds in (0.5, 1.0, 2.0):
+            start = time.perf_counter()
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                vp.render(scene, within=seconds, size=(320, 240))
+            spent = time.perf_counter() - start
+            print(name, seconds, "kept" if spent <= seconds else "missed", f"{spent:.2f} s", flush=True)
+
+
 def main(words):
     """Print promise and measurement."""
+    if words[:1] == ["within"]:
+        times()
+        return
     for name, scene, camera in of_gallery() if words[:1] == ["gallery"] else of_data():
         for off_by in (0.5, 0.25):
             start = time.process_time()

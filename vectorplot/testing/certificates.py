@@ -185,6 +185,9 @@ def certificate(
         Parts of lines that are shorter are not looked at; in mm on the page.
     width_mm : float
         Beside the outlines of what is in front strips of this width are left open; in mm on the page.
+    smooth_mm : float
+        The same where there are surfaces by formulas, on which strokes are not exact; parts of lines are not looked at
+        there up to as many times the length.
 
     Returns
     -------
@@ -199,8 +202,8 @@ def certificate(
     Notes
     -----
     It is found without the hidden-line engine of this package, and shows right drawings right: whether this one is,
-    `check_certificate.py` says, see `docs/for_tests.md`. Smooth surfaces are not certified, nor are strokes of other
-    kinds than contour, boundary, crease, edges, intersection, pattern, section and isophote; a drawing with a halo, or
+    `check_certificate.py` says, see `docs/for_tests.md`. Surfaces without formulas are not certified, nor are strokes of
+    other kinds than contour, boundary, crease, edges, intersection, pattern, section and isophote; a drawing with a halo, or
     thin ends, shows less than its lines.
 
     Source: Glaeser, section 7.2 (what a convex face hides of a segment is one interval).
@@ -845,6 +848,8 @@ def assert_certified(
     size_mm : float
         In mm, see `certificate`.
     width_mm : float
+        In mm, see `certificate`.
+    smooth_mm : float
         In mm, see `certificate`.
 
     Returns
