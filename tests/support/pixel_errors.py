@@ -1,5 +1,8 @@
-"""How far pixels are off: rendered pictures against one with 64 samples a pixel. ``python pixel_errors.py`` measures
-all scenes of data/, ``python pixel_errors.py within`` whether these keep times, ``python pixel_errors.py gallery`` those that the scripts in examples/ draw, paint or render."""
+"""How far pixels are off: rendered pictures against one with 64 samples a pixel.
+
+``python pixel_errors.py`` measures all scenes of data/, ``python pixel_errors.py gallery`` those that the scripts in
+examples/ draw, paint or render, and ``python pixel_errors.py within`` whether pictures of data/ keep times.
+"""
 
 import dataclasses
 import importlib.util

@@ -202,9 +202,9 @@ def certificate(
     Notes
     -----
     It is found without the hidden-line engine of this package, and shows right drawings right: whether this one is,
-    `check_certificate.py` says, see `docs/for_tests.md`. Surfaces without formulas are not certified, nor are strokes of
-    other kinds than contour, boundary, crease, edges, intersection, pattern, section and isophote; a drawing with a halo, or
-    thin ends, shows less than its lines.
+    `check_certificate.py` says, see `docs/for_tests.md`. Surfaces without formulas are not certified, nor are
+    strokes of other kinds than contour, boundary, crease, edges, intersection, pattern, section, isophote, parameter
+    and integral; a drawing with a halo, or thin ends, shows less than its lines.
 
     Source: Glaeser, section 7.2 (what a convex face hides of a segment is one interval).
 
