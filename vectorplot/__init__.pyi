@@ -10,26 +10,45 @@ from .features.zero_curves import zero_manifold_of_f_uv
 from .geometry.camera import Camera, Panorama
 from .geometry.mesh import Mesh
 from .geometry.polylines import Strokes
+from .pictures.development import development
 from .pictures.draw import draw
 from .pictures.film import Film, animate
 from .pictures.paint import paint
 from .pictures.panorama import panorama
 from .pictures.render import render
+from .pictures.sheet_annotations import part_scenes
 from .pictures.technical_sheet import technical_sheet, turntable
 from .read import read
 from .save import save, save_for_latex
 from .save_frames import save_frames
-from .scene.annotations import angle, arrow, axes, centre_line, centre_mark, diameter, dimension, leader, radius
+from .scene.annotations import (
+    angle,
+    arrow,
+    axes,
+    baseline_dimension,
+    centre_line,
+    centre_mark,
+    chain_dimension,
+    chamfer,
+    diameter,
+    dimension,
+    leader,
+    ordinate_dimension,
+    radius,
+    thread,
+    threaded_hole,
+)
 from .scene.exploded import exploded
 from .scene.hatching import Hatching, Stippling
 from .scene.item import Item, Pattern
-from .scene.labels import Along, AtVertex, Label, OnCurve, OnPage
+from .scene.labels import Along, AtVertex, Label, Measures, OnCurve, OnPage
 from .scene.light import Light
 from .scene.material import Material
 from .scene.page import Page
 from .scene.plots import graph, surface, tube
 from .scene.scene import Scene
 from .scene.surface_lines import Section, SurfaceLines
+from .scene.united import united
 from .shading.image import Image
 from .viewer.notebook import show
 from .words import LineKind
@@ -53,6 +72,7 @@ __all__ = [
     "Light",
     "LineKind",
     "Material",
+    "Measures",
     "Mesh",
     "OnCurve",
     "OnPage",
@@ -73,18 +93,24 @@ __all__ = [
     "animate",
     "arrow",
     "axes",
+    "baseline_dimension",
     "centre_line",
     "centre_mark",
+    "chain_dimension",
+    "chamfer",
     "contact_sheet",
     "cut",
+    "development",
     "diameter",
     "dimension",
     "draw",
     "exploded",
     "graph",
     "leader",
+    "ordinate_dimension",
     "paint",
     "panorama",
+    "part_scenes",
     "radius",
     "read",
     "read_animation",
@@ -95,7 +121,10 @@ __all__ = [
     "show",
     "surface",
     "technical_sheet",
+    "thread",
+    "threaded_hole",
     "tube",
     "turntable",
+    "united",
     "zero_manifold_of_f_uv",
 ]

@@ -73,6 +73,9 @@ NO_NORMAL = 1e-9
 WHOLE_TURN = 1e-9
 """An arc that turns by a whole turn but for so many radians is the whole ellipse."""
 
+STRAIGHT_TURN = 1e-6
+"""A polygon that turns by fewer radians at a corner goes straight on there: no circle has corners so close."""
+
 LOOP_TURN = 1e-6
 """Angles seen from the middle of a loop add up to a whole turn but for so many radians; anything else is off by a
 turn."""
@@ -378,6 +381,25 @@ UNITED_OF_EXTENT = 1e-12
 """Part of the largest coordinate that the meshes of a grid have on which regions are united where floating numbers do
 not lead to a union: a few thousand of their last digits."""
 
+DEVELOPABLE_ANGLE = 1e-6
+"""A surface is developable where its tangent plane turns by no more along its straight lines, as a sine, and these are
+no less straight: unrolled, lengths of it change by the square of that."""
+
+UNROLLED_OF_LENGTH = 1e-12
+"""Part of a development by which points may move when it is integrated in steps half as long: then it is found."""
+
+SAME_SCORE = 1e-9
+"""Two nets of a body are as good as each other where what is to be cut of them, as a part of all edges, differs by
+less: the one found first is taken."""
+
+UNITED_GRID_OF_ZERO = 2.0**-6
+"""Part of the distance that counts as zero that the meshes of the grid have on which faces of bodies are united: far
+finer than what is one point, so that what two planes make of a point is one however flat they meet."""
+
+SAME_POINT_OF_ZERO = 4.0
+"""Corners of a union of bodies so many times nearer than what counts as zero are one: each is off by up to that, in
+the plane it was found in."""
+
 
 # Lengths as parts of other lengths: of a chord, a cell, a stroke, a tolerance, a step.
 
@@ -388,6 +410,10 @@ matter."""
 ARC_OF_TOLERANCE = 1e-3
 """An arc of an ellipse is one only if all points agree within this part of the tolerance: what was an arc agrees to
 rounding, and what merely resembles one does not."""
+
+ONE_CIRCLE_OF_RADIUS = 1e-3
+"""Circles through three neighbouring corners each, whose middles are no farther apart than this part of their radius,
+are perhaps one: points in a row that pass are looked at as a whole."""
 
 CUBIC_OF_TOLERANCE = 1e-4
 """Neighbouring Bézier curves that are exact become one where all control points agree within this part of the

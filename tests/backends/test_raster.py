@@ -9,10 +9,11 @@ import pytest
 from support.backend_samples import drawing_of, paths_of
 
 from vectorplot.backends import cairo
-from vectorplot.backends.raster import painted, png_bytes
+from vectorplot.backends.raster import painted, png_bytes, smoothly_painted
 from vectorplot.drawing.drawing import Drawing, Layer, Pen
 from vectorplot.drawing.fills import Fills
 from vectorplot.errors import InputError
+from vectorplot.shading.image import averaged
 
 BLANK = np.full((80, 120, 3), 255, dtype=np.uint8)
 
@@ -92,3 +93,20 @@ def test_points_and_empty_drawings():
         painted(BLANK, Drawing(0.0, 80.0, ()))
     with pytest.raises(InputError, match="finite"):
         painted(BLANK, drawing_of(paths_of([(np.nan, 0), (1, 1)])))
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_only_pixels_that_sides_cross_are_looked_at_in_many_places(seed):
+    rng = np.random.default_rng(seed)
+    count = rng.integers(3, 7, 30)
+    centre, size = rng.uniform(-10, 130, (30, 2)), 10.0 ** rng.uniform(-1.5, 2.0, 30)
+    points = np.repeat(centre, count, axis=0) + np.repeat(size, count)[:, None] * rng.normal(size=(count.sum(), 2))
+    offsets = np.concatenate([[0], np.cumsum(count)])
+    one = rng.integers(0, 256, (30, 3)).repeat(count, axis=0)
+    shaded = np.repeat(rng.random(30) < 0.5, count)[:, None]
+    colours = np.where(shaded, rng.integers(0, 256, (len(points), 3)), one).astype(np.uint8)
+    flat = Fills.flat(points, offsets, np.zeros((30, 3), dtype=np.uint8))
+    fills = Fills(points, offsets, colours, flat.opacity, flat.item, flat.points3d, flat.kind)
+    drawing = Drawing(120.0, 80.0, (Layer("faces", Pen(), (fills,)),))
+    everywhere = averaged(painted(np.full((320, 480, 3), 255, dtype=np.uint8), drawing), 4)
+    assert np.abs(smoothly_painted(BLANK, drawing, 4) - everywhere).max() <= 1.01

@@ -28,14 +28,14 @@ from vectorplot.backends.page import (
     shaded,
     skirts,
 )
-from vectorplot.backends.raster import painted
+from vectorplot.backends.raster import smoothly_painted
 from vectorplot.backends.shaded_triangles import Underlaps, grown, underlaps
 from vectorplot.drawing.drawing import Drawing, Layer, Pen
 from vectorplot.drawing.fills import SEAM_MM, Fills
 from vectorplot.drawing.sheets import Mark, moved_mark
 from vectorplot.errors import InputError, not_installed
 from vectorplot.geometry import ragged
-from vectorplot.shading.image import DPI, Bytes, averaged, with_meaning
+from vectorplot.shading.image import DPI, Bytes, with_meaning
 
 try:
     import cairo
@@ -613,10 +613,7 @@ def _painted(pixels: Bytes, drawing: Drawing, count: int, scale: float) -> Bytes
     # The page ends at the upper border, as for what is drawn over it.
     way = np.array([0.0, high - drawing.height_mm])
     marks = [moved_mark(mark, 1.0, way) for layer in drawing.layers[:count] for mark in layer.marks]
-    blank = np.broadcast_to(pixels[:1, :1], (samples * height, samples * width, 3))
-    return np.rint(averaged(painted(blank, Drawing(wide, high, (Layer("", Pen(), tuple(marks)),))), samples)).astype(
-        np.uint8
-    )
+    return smoothly_painted(pixels, Drawing(wide, high, (Layer("", Pen(), tuple(marks)),)), samples)
 
 
 def _postscript(page: PageMarks, *, eps: bool) -> bytes:

@@ -5,7 +5,8 @@ Nothing is smoothed: a pixel is in a stroke or a polygon, or it is not. Make the
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from functools import partial
 from itertools import pairwise
 
 import numpy as np
@@ -21,7 +22,15 @@ from vectorplot.geometry.clipping import Polygons
 from vectorplot.scene.page import MM_PER_INCH
 from vectorplot.shading.image import DPI, Bytes, averaged
 from vectorplot.shading.image import png_bytes as pixels_as_png
-from vectorplot.shading.pixel_coverage import GUARD_BAND, line_pixels, polygon_pixels, with_specks_grown
+from vectorplot.shading.pixel_coverage import (
+    GUARD_BAND,
+    PixelRuns,
+    PolygonPixels,
+    crossed_pixels,
+    line_pixels,
+    polygon_pixels,
+    with_specks_grown,
+)
 from vectorplot.shading.screen import raster_size
 
 JOIN_SIDES = 12
@@ -63,7 +72,9 @@ def painted(picture: Bytes, drawing: Drawing) -> Bytes:
         width = layer.pen.width_mm * float(np.abs(scale).mean())
         for mark in layer.marks:
             if isinstance(mark, Fills):
-                _fill(flat, mark, _pixels(mark.points, scale, origin), columns, rows)
+                _fill(
+                    flat, mark, _pixels(mark.points, scale, origin), partial(polygon_pixels, columns=columns, rows=rows)
+                )
                 continue
             if isinstance(mark, Texts):
                 # There is no font here.
@@ -71,6 +82,37 @@ def painted(picture: Bytes, drawing: Drawing) -> Bytes:
             paths = mark.paths if isinstance(mark, CurvedStrokes) else mark
             for pixel in _stroke_pixels(paths, _pixels(paths.points, scale, origin), width, columns, rows):
                 flat[pixel] = colour
+    return result
+
+
+def smoothly_painted(picture: Bytes, drawing: Drawing, samples: int) -> Bytes:
+    """As painted, for drawings of polygons: each pixel is the mean of samples x samples places in it.
+
+    Source: the places are looked at where sides of polygons cross a pixel; elsewhere the middle is the mean.
+    """
+    rows, columns = picture.shape[:2]
+    scale = np.array([columns / drawing.width_mm, -rows / drawing.height_mm])
+    result, origin = painted(picture, drawing), np.array([-0.5, rows - 0.5])
+    marks = [mark for layer in drawing.layers for mark in layer.marks if isinstance(mark, Fills)]
+    shapes = [shape for mark in marks for shape, _ in _runs(mark, _pixels(mark.points, scale, origin))]
+    start = np.concatenate([np.empty((0, 2)), *(shape.points[:, :2] for shape in shapes)])
+    end = np.concatenate([np.empty((0, 2)), *(s.points[ragged.following(s.offsets), :2] for s in shapes)])
+    crossed = crossed_pixels(start, end, columns, rows)
+    number = np.cumsum(crossed).reshape(crossed.shape) - 1
+    fine = np.repeat(picture[crossed], samples * samples, axis=0)
+    runs = PixelRuns.of(crossed, samples)
+
+    def pixels(polygons: Polygons) -> Iterator[PolygonPixels]:
+        for found in polygon_pixels(polygons, samples * columns, samples * rows, runs):
+            row, column = np.divmod(found.pixel, samples * columns)
+            place = (row % samples) * samples + column % samples
+            pixel = number[row // samples, column // samples] * (samples * samples) + place
+            yield PolygonPixels(pixel, found.polygon, found.values)
+
+    for mark in marks:
+        places = _pixels(mark.points, samples * scale, np.array([-0.5, samples * rows - 0.5]))
+        _fill(fine, mark, places, pixels)
+    result[crossed] = np.rint(fine.reshape(-1, samples * samples, 3).mean(axis=1)).astype(np.uint8)
     return result
 
 
@@ -113,8 +155,17 @@ def _segments(paths: Paths) -> tuple[Ints, Ints]:
     return start, after[start]
 
 
-def _fill(flat: Bytes, fills: Fills, points: Floats, columns: int, rows: int) -> None:
+def _fill(flat: Bytes, fills: Fills, points: Floats, pixels: Callable[[Polygons], Iterator[PolygonPixels]]) -> None:
     """Paint polygons, one over the other: changes the picture."""
+    for polygons, opacity in _runs(fills, points):
+        for found in pixels(with_specks_grown(polygons)):
+            under = flat[found.pixel].astype(np.float64) if opacity < 1.0 else 0.0
+            flat[found.pixel] = np.rint(opacity * found.values + (1.0 - opacity) * under).astype(np.uint8)
+
+
+def _runs(fills: Fills, points: Floats) -> Iterator[tuple[Polygons, float]]:
+    """Polygons that are painted at once, with their colours and their opacity: flat opaque ones, the triangles of
+    shaded ones, and those one sees through, one by one."""
     sizes = np.diff(fills.offsets)
     polygon = ragged.owner(sizes)
     same = (fills.colours == fills.colours[fills.offsets[:-1][polygon]]).all(axis=1)
@@ -122,18 +173,13 @@ def _fill(flat: Bytes, fills: Fills, points: Floats, columns: int, rows: int) ->
     even[polygon[~same]] = False
     # Convex ones may be painted as shaded ones are: so runs are long.
     even &= ~_convex(points, fills.offsets)
-    # Runs that are painted at once: flat opaque ones, shaded ones, and those one sees through, one by one.
     kind = np.where(fills.opacity < 1.0, 2 + np.arange(len(fills)), np.where(even, 0, 1))
     borders = np.append(np.flatnonzero(np.diff(kind, prepend=-1)), len(fills)).tolist()
     for begin, end in pairwise(borders):
         part = slice(fills.offsets[begin], fills.offsets[end])
         shaded = np.column_stack([points[part], fills.colours[part]])
         polygons = Polygons(shaded, fills.offsets[begin : end + 1] - fills.offsets[begin])
-        polygons = polygons if even[begin:end].all() else _fan_triangles(polygons)
-        opacity = float(fills.opacity[begin])
-        for found in polygon_pixels(with_specks_grown(polygons), columns, rows):
-            under = flat[found.pixel].astype(np.float64) if opacity < 1.0 else 0.0
-            flat[found.pixel] = np.rint(opacity * found.values + (1.0 - opacity) * under).astype(np.uint8)
+        yield polygons if even[begin:end].all() else _fan_triangles(polygons), float(fills.opacity[begin])
 
 
 def _convex(points: Floats, offsets: Ints) -> Bools:

@@ -171,9 +171,8 @@ def toned_regions(fills: Fills) -> TonedRegions:
     """
     import shapely
 
-    fills = _in_triangles(
-        fills.take(np.flatnonzero((np.diff(fills.offsets) > 2) & (fills.kind != FillKind.BACKGROUND)))
-    )
+    shown = (np.diff(fills.offsets) > 2) & (fills.kind != FillKind.BACKGROUND)
+    fills = fills.take(np.flatnonzero(shown)).in_triangles()
     parts, source = visible_regions(fills)
     rings, of = shapely.get_rings(parts, return_index=True)
     xy, ring = shapely.get_coordinates(rings, return_index=True)
@@ -191,28 +190,6 @@ def toned_regions(fills: Fills) -> TonedRegions:
         lowest[source],
         highest[source],
     )
-
-
-def _in_triangles(fills: Fills) -> Fills:
-    """The same picture, with the triangles of their fans in place of shaded polygons."""
-    first = fills.offsets[:-1]
-    differs = (fills.colours != np.repeat(fills.colours[first], np.diff(fills.offsets), axis=0)).any(axis=1)
-    shaded = np.zeros(len(fills), dtype=np.bool_)
-    shaded[ragged.owner(np.diff(fills.offsets))[differs]] = True
-    plain, fan = fills.take(np.flatnonzero(~shaded)), fills.take(np.flatnonzero(shaded))
-    corners, of = ragged.fans(fan.offsets)
-    at = corners.ravel()
-    triangles = Fills(
-        fan.points[at],
-        3 * np.arange(len(of) + 1),
-        fan.colours[at],
-        fan.opacity[of],
-        fan.item[of],
-        fan.points3d[at],
-        fan.kind[of],
-    )
-    number = np.concatenate([np.flatnonzero(~shaded), np.flatnonzero(shaded)[of]])
-    return Fills.joined(plain, triangles).take(np.argsort(number, kind="stable"))
 
 
 def _darkness(fills: Fills) -> tuple[Floats, Floats, Floats]:

@@ -49,6 +49,11 @@ class Texts:
             np.concatenate([part.hidden_by for part in every]),
         )
 
+    def take(self, which: Ints) -> Texts:
+        """The texts with these numbers (k,), in this order."""
+        columns = self.points, self.size_mm, self.turn_deg, self.anchor, self.room_mm, self.hidden_by
+        return Texts(tuple(self.strings[k] for k in which.tolist()), *(column[which] for column in columns))
+
     def moved(self, way: Floats) -> Texts:
         """The same, moved on the page by (2,)."""
         return replace(self, points=self.points + way)

@@ -33,6 +33,7 @@ from vectorplot.io.scene_statements import (
     read_ink,
     read_label,
     read_light,
+    read_measures,
     read_page,
 )
 from vectorplot.io.scene_words import ANNOTATION_WORDS, SCENE_WORDS, Words
@@ -133,6 +134,7 @@ class _Reader(ItemReader):
         self.annotations: list[Scene] = []
         self.pens: list[tuple[int, str]] = []
         self.cuts: list[int] = []
+        self.moves: list[int] = []
         self.settings = Scene(items=())
         self.set: set[str] = set()
         self.lit: list[tuple[int, Draft]] = []
@@ -185,12 +187,17 @@ class _Reader(ItemReader):
                 self.source.fail(index, unknown_item(item, tuple(names)).cause)
 
     def check_cuts(self) -> None:
-        """An InputError for cuts of items that are not there; items may come behind them."""
+        """An InputError for cuts and moves of items that are not there; items may come behind them."""
         known = [item.name for item in self.items]
         for index, cut in zip(self.cuts, self.settings.cuts, strict=True):
             for name in cut.items or ():
                 if name not in known:
                     self.source.fail(index, unknown("cut: item", name, known).cause)
+        known += [item.group for item in self.items if item.group]
+        for index in self.moves:
+            name = self.source.string(index + 1)
+            if name not in known:
+                self.source.fail(index, unknown("explode: item", name, known).cause)
 
     def check_range(self) -> None:
         """An InputError for polyhedra, as they stand in the scene, whose coordinates leave the range of numbers."""
@@ -212,7 +219,7 @@ class _Reader(ItemReader):
             annotation, self.at = read_annotation(self.source, self.at)
             self.annotations.append(annotation)
             return
-        if word in self.set and word not in ("light", "label", "cut", *INK_WORDS):
+        if word in self.set and word not in ("light", "label", "cut", "explode", *INK_WORDS):
             self.fail(f"a second '{word}'")
         self.set.add(word)
         source, now = self.source, self.settings
@@ -234,8 +241,12 @@ class _Reader(ItemReader):
             self.pens.append((self.at + 1, pen_target(source, self.at)))
             inks, self.at = read_ink(source, self.at, now.inks, self.files)
             self.settings = replace(now, inks=inks)
+        elif word == "measures":
+            measures, self.at = read_measures(source, self.at)
+            self.settings = replace(now, measures=measures)
         elif word == "explode":
-            explosion, self.at = read_explosion(source, self.at)
+            self.moves += [self.at] if self.words[self.at + 1].startswith('"') else []
+            explosion, self.at = read_explosion(source, self.at, now.explosion)
             self.settings = replace(now, explosion=explosion)
         elif word == "page":
             page, self.at = read_page(source, self.at)
@@ -304,14 +315,47 @@ class _Reader(ItemReader):
         self.at += 1
         draft = Draft("assembly", start)
         first, lit = len(self.items), len(self.lit)
+        self.members("assembly", start)
+        self.modifiers(draft)
+        if len(self.lit) > lit and draft.places != [IDENTITY]:
+            self.source.fail(start, "assembly: items with 'lit_by' cannot be moved together")
+        if draft.places != [IDENTITY]:
+            self.repeated(self.taken(first), draft)
+
+    def union(self) -> None:
+        """A name, the items up to the word end, which are one body, and where it stands."""
+        start = self.at
+        self.at += 1
+        if self.words[self.at] in ("", ",", *SCENE_WORDS) or self.source.is_number(self.at):
+            self.fail(f"union: expected the name of the body, got {self.source.shown(self.at)}")
+        draft = Draft(self.source.string(self.at), start)
+        self.at += 1
+        first, lit = len(self.items), len(self.lit)
+        self.members("union", start)
+        self.modifiers(draft)
+        if len(self.lit) > lit:
+            self.source.fail(start, f"{draft.owner}items with 'lit_by' cannot be united")
+        items = self.taken(first)
+        if not items:
+            self.source.fail(start, f"{draft.owner}a union of no items")
+        from vectorplot.scene.united import union_item
+
+        try:
+            body = union_item(items, draft.name)
+        except InputError as error:
+            self.source.fail(start, draft.owner + error.cause)
+        self.repeated([replace(body, place=(self.source.name, self.source.line(start)))], draft)
+
+    def members(self, group: str, start: int) -> None:
+        """The items of an assembly or a union, and the word end."""
         while (word := self.words[self.at]) != "end":
             if not word:
-                self.source.fail(start, "assembly: expected 'end' behind its items, got the end of the file")
-            alone = word in SCENE_WORDS and word not in ("include", "assembly")
+                self.source.fail(start, f"{group}: expected 'end' behind its items, got the end of the file")
+            alone = word in SCENE_WORDS and word not in ("include", "assembly", "union")
             if alone or begins_annotation(self.source, self.at):
-                self.fail(f"assembly: expected an item or 'end', got {self.source.shown(self.at)}")
-            if word == "assembly" and self.depth >= DEEPEST:
-                self.fail(f"assembly: more than {DEEPEST} in one another")
+                self.fail(f"{group}: expected an item or 'end', got {self.source.shown(self.at)}")
+            if word in ("assembly", "union") and self.depth >= DEEPEST:
+                self.fail(f"{word}: more than {DEEPEST} in one another")
             if word in _MANIFOLD:
                 self.depth += 1
                 _MANIFOLD[word](self)
@@ -319,21 +363,20 @@ class _Reader(ItemReader):
             else:
                 self.item()
         self.at += 1
-        self.modifiers(draft)
-        if len(self.lit) > lit and draft.places != [IDENTITY]:
-            self.source.fail(start, "assembly: items with 'lit_by' cannot be moved together")
+
+    def taken(self, first: int) -> list[Item]:
+        """The items from a place on, but for parts of intersections, out of the list of all items."""
         gone = {place for place in self.parts if place >= first}
         items = [item for place, item in enumerate(self.items) if place >= first and place not in gone]
-        if draft.places != [IDENTITY]:
-            self.parts -= gone
-            del self.items[first:]
-            for name in [name for name, place in self.places.items() if place >= first]:
-                del self.places[name]
-            self.repeated(items, draft)
+        self.parts -= gone
+        del self.items[first:]
+        for name in [name for name, place in self.places.items() if place >= first]:
+            del self.places[name]
+        return items
 
     def alone(self) -> None:
         """The word end without a beginning."""
-        self.fail("'end' without 'assembly'")
+        self.fail("'end' without 'assembly' or 'union'")
 
     def repeated(self, items: Sequence[Item], draft: Draft) -> None:
         """Items as often and where a draft says."""
@@ -365,6 +408,7 @@ class _Reader(ItemReader):
 _MANIFOLD: dict[str, Callable[[_Reader], None]] = {
     "include": _Reader.include,
     "assembly": _Reader.assembly,
+    "union": _Reader.union,
     "end": _Reader.alone,
 }
 """Statements about several items at once."""

@@ -30,7 +30,15 @@ from vectorplot.pictures.fills import background as background_of
 from vectorplot.pictures.lines import PEN, LineOverlay, places_beside_faces
 from vectorplot.pictures.options import SHADOWS, check_options
 from vectorplot.pictures.pipeline import Pipeline, StageReport, stoppable
-from vectorplot.pictures.plan import accuracy_of_paint, has_bodies, plan_bodies, plan_paint, with_accuracy
+from vectorplot.pictures.plan import (
+    accuracy_of_paint,
+    has_banded_surfaces,
+    has_bodies,
+    plan_bodies,
+    plan_paint,
+    plan_surface_bands,
+    with_accuracy,
+)
 from vectorplot.pictures.prepared_scene import Paper, beside_bar, left_of_bar, prepared_scene, room_for_labels, titled
 from vectorplot.pictures.promises import PAINTING, promised
 from vectorplot.scene.added_lines import with_default_lines
@@ -118,6 +126,7 @@ def paint(
     title: str = "",
     frame: bool = False,
     text: Literal["strokes", "real"] = "strokes",
+    shortest_mm: float | None = None,
     off_by: float | str | None = None,
     within: float | str | None = None,
     budget: float = 1.0,
@@ -181,6 +190,8 @@ def paint(
         A rectangle in the middle of the margin, which ends before the title.
     text : {"strokes", "real"}
         As in draw.
+    shortest_mm : float, optional
+        Lines that are shorter when they are joined are left out; none where None.
     off_by : float or str, optional
         The error that the picture is to keep, mm, a text such as "0.01mm", or
         with the error of shades, in steps of 255, "0.01mm,4shades": tolerance_mm is chosen for it,
@@ -269,8 +280,9 @@ def paint(
     check_targets(over.rules, names)
     sheet, strip = left_of_bar(sheet, bar)
     stages = with_accuracy(plan_paint(scene, shadows, fills, kinds), accuracy_of_paint(tolerance_mm))
-    if smooth and fills == "painted" and subject.chart is None and has_bodies(scene) and not aura_mm:
-        stages = plan_bodies(stages)
+    if smooth and fills == "painted" and subject.chart is None and not aura_mm:
+        stages = plan_surface_bands(stages) if has_banded_surfaces(scene) else stages
+        stages = plan_bodies(stages) if has_bodies(scene) else stages
     pipeline = Pipeline(stages, explain, progress, threads)
     projection = projection_of(subject.camera, scene.bounds)
     # Lines belong to each item, polygons to what is seen.
@@ -303,7 +315,7 @@ def paint(
         among = painted_bodies(painter, shown, beside_bodies)
     if among is not None:
         view, placement, polygons = among
-        ruler = LineOverlay(scene, view, None, placement, crease_angle_deg, tolerance_mm, budget)
+        ruler = LineOverlay(scene, view, None, placement, crease_angle_deg, tolerance_mm, budget, shortest_mm)
     else:
         ordered = painter.ordered(shown)
         beside = places_beside_faces(scene, ordered.view, None, sheet, fit, drawn, tolerance_mm, budget)
@@ -312,7 +324,8 @@ def paint(
             placement = subject.around(placement, ordered.view, sheet)
         pipeline.measured("facets", "mm", outline_error, ordered.facets, ordered.view, placement)
         seen, lighting = painter.seen(ordered, placement)
-        ruler = LineOverlay(scene, seen.view, seen.projected, placement, crease_angle_deg, tolerance_mm, budget)
+        drawn_by = (crease_angle_deg, tolerance_mm, budget, shortest_mm)
+        ruler = LineOverlay(scene, seen.view, seen.projected, placement, *drawn_by)
         if pipeline.calls_for("erasing"):
             polygons = erased(pipeline, seen, scene, ruler, kinds or line_kinds(ON_THINGS), palette)
         else:

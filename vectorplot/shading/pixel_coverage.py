@@ -311,6 +311,9 @@ SPECK_RADIUS = 0.4
 AT_ONCE = 1 << 18
 """So many crossings, or pixels, are made at a time."""
 
+SNAPPED = 1.0 / SUBPIXELS
+"""In pixels: no corner is moved farther by snapping."""
+
 
 @dataclass(frozen=True, eq=False)
 class Spans:
@@ -334,14 +337,71 @@ class PolygonPixels:
     values: Floats
 
 
-def polygon_pixels(polygons: Polygons, columns: int, rows: int) -> Iterator[PolygonPixels]:
-    """The pixels whose centres lie in polygons (x, y and further columns), in portions. Further columns, shades or
-    colours, are interpolated linearly along edges and scan lines. Polygons need not be convex: inside is an odd
-    number of crossings.
+@dataclass(frozen=True, eq=False)
+class PixelRuns:
+    """Some pixels of a raster, as runs along its rows: begin and end (exclusive) (r,), row * columns + column,
+    ascending."""
+
+    begin: Ints
+    end: Ints
+
+    @classmethod
+    def of(cls, chosen: Bools, samples: int) -> PixelRuns:
+        """What the chosen pixels (rows, columns) are in a raster that is so many times finer."""
+        change = np.diff(chosen.view(np.int8), axis=1, prepend=0, append=0)
+        (row, begin), (_, end) = (np.nonzero(change == step) for step in (1, -1))
+        count = np.repeat(np.bincount(row, minlength=len(chosen)), samples)
+        first = np.repeat(np.searchsorted(row, np.arange(len(chosen))), samples)
+        run, start = ragged.ranges(first, count), samples * chosen.shape[1] * ragged.owner(count)
+        return cls(start + samples * begin[run], start + samples * end[run])
+
+    def within(self, spans: Spans, columns: int) -> Spans:
+        """The parts of spans in these pixels."""
+        first, last = (spans.row * columns + side for side in (spans.first, spans.last))
+        met = np.searchsorted(self.end, first, side="right")
+        count = np.where(last > first, np.searchsorted(self.begin, last) - met, 0)
+        span, run = np.repeat(np.arange(len(count)), count), ragged.ranges(met, count)
+        row = spans.row[span]
+        return Spans(
+            spans.polygon[span], row,
+            np.maximum(first[span], self.begin[run]) - row * columns,
+            np.minimum(last[span], self.end[run]) - row * columns,
+            spans.at[:, span], spans.values[:, span],
+        )  # fmt: skip
+
+
+def crossed_pixels(start: Floats, end: Floats, columns: int, rows: int) -> Bools:
+    """(rows, columns) which pixels are crossed by one of the lines (n, 2), or may be once these are snapped."""
+    start, end = start + 0.5, end + 0.5
+    low, high = np.minimum(start, end) - SNAPPED, np.maximum(start, end) + SNAPPED
+    top = np.maximum(np.floor(low[:, 1]), 0).astype(np.intp)
+    count = np.maximum(np.minimum(np.floor(high[:, 1]), rows - 1).astype(np.intp) - top + 1, 0)
+    change = np.zeros(rows * (columns + 1) + 1, dtype=np.intp)
+    for begin, stop in ragged.batches(count, AT_ONCE):
+        side = np.repeat(np.arange(begin, stop), count[begin:stop])
+        row = ragged.ranges(top[begin:stop], count[begin:stop])
+        (x, y), (dx, dy) = start[side].T, (end - start)[side].T
+        steep = np.abs(dy) > SNAPPED
+        share = np.stack([row - SNAPPED, row + 1.0 + SNAPPED]) - y
+        ends = x + dx * np.where(steep, np.clip(share / np.where(steep, dy, 1.0), 0.0, 1.0), [[0.0], [1.0]])
+        left, right = (np.floor(ends.min(axis=0) - SNAPPED), np.floor(ends.max(axis=0) + SNAPPED) + 1.0)
+        for at, sign in ((left, 1), (right, -1)):
+            place = row * (columns + 1) + np.clip(at, 0, columns).astype(np.intp)
+            change += sign * np.bincount(place, minlength=len(change))
+    return np.asarray(np.cumsum(change)[:-1].reshape(rows, columns + 1)[:, :columns] > 0)
+
+
+def polygon_pixels(
+    polygons: Polygons, columns: int, rows: int, runs: PixelRuns | None = None
+) -> Iterator[PolygonPixels]:
+    """The pixels whose centres lie in polygons (x, y and further columns), or those of them in runs, in portions.
+    Further columns, shades or colours, are interpolated linearly along edges and scan lines. Polygons need not be
+    convex: inside is an odd number of crossings.
     Edge cases: none without area, see with_specks_grown. Errors: InputError for corners not finite or beyond the guard
     band. Source: Glaeser, section 4.6, figure 7; errata G4-10 to G4-13.
     """
-    for spans in _spans(polygons, columns, rows):
+    for found in _spans(polygons, columns, rows):
+        spans = runs.within(found, columns) if runs else found
         length = spans.last - spans.first
         for begin, stop in ragged.batches(length, AT_ONCE):
             span = np.repeat(np.arange(begin, stop), length[begin:stop])

@@ -8,7 +8,7 @@ from support.paths import ROOT
 
 import vectorplot as vp
 from vectorplot.curves import Circle
-from vectorplot.drawing.sheets import DrawingScale
+from vectorplot.drawing.title_block import DrawingScale
 
 RING = vp.draw(Circle(radius=2.0), "top", page=vp.Page(40, 40, 10))
 TRIANGLE = vp.Mesh.from_triangles([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])

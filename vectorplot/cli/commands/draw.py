@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from vectorplot.cli.option_values import of_option, place, tiles
+from vectorplot.cli.option_values import of_option, place
 from vectorplot.cli.options import (
     BACKGROUND,
     DEPTH_CUE,
@@ -17,8 +17,10 @@ from vectorplot.cli.options import (
     HATCHING_OPTIONS,
     LAYERS,
     PAGE_OPTIONS,
+    SHORTEST,
     STROKE_OPTIONS,
     TEXT,
+    TILES,
     TITLE,
     TOLERANCE,
     crease_angle_option,
@@ -80,19 +82,8 @@ if TYPE_CHECKING:
         metavar="MM",
         help="Longer strokes leave in parts.  [default: whole]",
     ),
-    click.option(
-        "--shortest",
-        "shortest_mm",
-        type=of_option("shortest_mm"),
-        metavar="MM",
-        help="Shorter strokes are left out.  [default: those below 0.05 that are alone]",
-    ),
-    click.option(
-        "--tiles",
-        type=tiles,
-        metavar="CxR",
-        help="Also the page in C x R parts, with registration marks, as OUT-ROW-COLUMN.",
-    ),
+    SHORTEST,
+    TILES,
     click.option(
         "--certificate",
         type=click.Path(dir_okay=False),

@@ -17,7 +17,9 @@ from vectorplot.cli.options import (
     LIGHTS,
     OVERLAID_OPTIONS,
     PAGE_OPTIONS,
+    SHORTEST,
     TEXT,
+    TILES,
     TITLE,
     TOLERANCE,
     crease_angle_option,
@@ -54,6 +56,8 @@ if TYPE_CHECKING:
     TITLE,
     FRAME,
     TEXT,
+    SHORTEST,
+    TILES,
 )
 def paint(scene: Scene, **told: Any) -> Drawing:
     """Paint INPUT, a scene file (- for stdin), mesh (obj, stl, ply, off, glb), molecule (xyz, pdb, cif) or terrain

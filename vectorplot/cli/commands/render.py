@@ -13,6 +13,7 @@ from vectorplot.cli.options import (
     EXPOSURE,
     LIGHTS,
     OVERLAID_OPTIONS,
+    SHORTEST,
     crease_angle_option,
     fit_option,
     lines_option,
@@ -75,6 +76,7 @@ FORMATS = ("png",)
     crease_angle_option("Sharper edges stay sharp."),
     lines_option("Lines on top"),
     *OVERLAID_OPTIONS,
+    SHORTEST,
     DEPTH_CUE,
     BACKGROUND,
 )
