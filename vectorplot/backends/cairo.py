@@ -385,6 +385,17 @@ _BITS_OF_PLACES = 16
 """A place is off by less than one part in 130,000 of the size of the mesh."""
 
 
+_PAGE_GROUP = re.compile(
+    rb"(/Contents \d+ 0 R\n) +/Group <<\s+/Type /Group\s+/S /Transparency\s+/I true\s+/CS /DeviceRGB\s+>>"
+)
+
+
+def without_page_groups(data: bytes) -> bytes:
+    """A PDF file of cairo with blanks where a page is said to be a group of transparency: TeX wants no more than one of
+    these on a page of its own, and blends the same without."""
+    return _PAGE_GROUP.sub(lambda found: found[1] + b" " * (len(found[0]) - len(found[1])), data)
+
+
 def with_triangles_in_pdf(data: bytes) -> bytes:
     """A PDF file of cairo with triangles instead of patches."""
     table = data.rindex(b"\nxref\n") + 1
@@ -536,7 +547,7 @@ def pdf_bytes(drawing: Drawing) -> bytes:
         surface.set_metadata(cairo.PDFMetadata.TITLE, page.title)
     draw_page(surface, page, height)
     surface.finish()
-    return with_triangles_in_pdf(stream.getvalue())
+    return with_triangles_in_pdf(without_page_groups(stream.getvalue()))
 
 
 def png_bytes(drawing: Drawing, dpi: float = DPI) -> bytes:
@@ -750,4 +761,4 @@ def pdf_pages_bytes(drawings: Iterable[Drawing], title: str = "") -> bytes:
         surface.set_size(page.width * POINTS_PER_MICRON, height)
         draw_page(surface, page, height)
     surface.finish()
-    return with_triangles_in_pdf(stream.getvalue())
+    return with_triangles_in_pdf(without_page_groups(stream.getvalue()))

@@ -51,7 +51,7 @@ class TextLine(NamedTuple):
 class PageTexts:
     """Lines of text on the page: microns (n,2) int64, y upwards, of the point on the line that letters stand on; type
     (n,), the sizes of type in mm; turn_deg (n,); anchor (n,): 0 begins there, 0.5 has its middle there, 1 ends there;
-    colours: #rrggbb of each."""
+    colours: #rrggbb of each; latex: the words that LaTeX has for the sizes, or none."""
 
     strings: tuple[str, ...]
     microns: Ints
@@ -59,6 +59,7 @@ class PageTexts:
     turn_deg: Floats
     anchor: Floats
     colours: tuple[str, ...]
+    latex: tuple[str, ...]
 
     def __len__(self) -> int:
         return len(self.strings)
@@ -87,6 +88,7 @@ def page_texts(texts: Texts, colour: str) -> PageTexts:
         np.round(texts.turn_deg, 3) + 0.0,
         texts.anchor,
         tuple(faint if by else colour for by in texts.hidden_by),
+        texts.in_latex,
     )
 
 

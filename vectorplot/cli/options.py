@@ -445,7 +445,10 @@ PAGE_OPTIONS = (
         help="A0 to A6, letter, legal, ... or WIDTHxHEIGHT in mm; fit: as large as the picture.  [default: A4]",
     ),
     click.option(
-        "--width", type=length, metavar="LENGTH", help="Of a page as high as its picture: 80mm, 8cm, 3in or 120pt."
+        "--width",
+        type=length,
+        metavar="LENGTH",
+        help="Of a page as high as its picture: 80mm, 8cm, 3in, 120pt or, for LaTeX, '0.8\\linewidth'.",
     ),
     LANDSCAPE,
     click.option("--margin", type=at_least(0.0), metavar="MM", help="Empty border of the page.  [default: 10]"),

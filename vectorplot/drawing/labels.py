@@ -36,7 +36,7 @@ from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.polylines import segments
 from vectorplot.scene.annotations import LabelAnchors
-from vectorplot.scene.labels import Along, BesidePoint, Label, OnCurve, OnPage
+from vectorplot.scene.labels import Along, BesidePoint, Label, OnCurve, OnPage, times
 from vectorplot.scene.placement import Placement
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
@@ -400,7 +400,7 @@ def set_label(letters: Letters, label: Label, room: float, mm: float) -> Letteri
     """
 
     def set_(text: str) -> Lettering:
-        return letters.plain(text, size_mm=label.size_mm * mm, align="centre")
+        return letters.plain(text, size_mm=times(label.capitals_mm, mm), align="centre")
 
     def fits(text: str) -> bool:
         return float(np.ptp(set_(text).bounds, axis=0)[0]) <= room
@@ -436,7 +436,7 @@ def set_along(
     nearest = int(np.argmin(np.hypot(*(path - seen.points[number]).T)))
     whole = float(steps.sum())
     part = float(steps[:nearest].sum()) / whole if whole else 0.0
-    size = label.size_mm * mm
+    size = times(label.capitals_mm, mm)
     level, off = {"above": ("base", GAP), "below": ("top", -GAP)}.get(place or label.place, ("middle", 0.0))
     part = part if at is None else at
     try:
@@ -546,7 +546,7 @@ def ticks_with_room(seen: SeenLabels, placement: Placement, mm: float) -> SeenLa
 
 def _is_clear(label: Label, way: Floats, share: float, mm: float) -> bool:
     """Whether a text that is moved by way (2,) is clear of a share of one of the same size where it was."""
-    size = label.size_mm * mm
+    size = times(label.capitals_mm, mm)
     room = np.ptp(typeset(label.text, size_mm=size).bounds, axis=0) + BETWEEN * size
     return bool((np.abs(way) >= share * room).any())
 
@@ -679,7 +679,7 @@ def measures_on_page(
             def set_at(place: str, part: float, k: int = k, path: Floats = path) -> Lettering:
                 return set_along(letters, seen, k, path, mm, place, part)
 
-            gap = GAP * label.size_mm * mm
+            gap = GAP * label.capitals_mm * mm
             tried[k] = measures_tried(path, heads[label.at.item], usual[k], set_at, gap, mm)
     if not tried:
         return {}
@@ -798,7 +798,7 @@ def labels_on_page(
     some = labels_with_room(seen, some, mm)
     labels = [seen.anchors.labels[k] for k in some]
     paths = {k: course_on_page(seen, k, placement) for k in some if isinstance(seen.anchors.labels[k].at, Along)}
-    along = [k for k, path in paths.items() if length_of(path) > seen.anchors.labels[k].size_mm * mm]
+    along = [k for k, path in paths.items() if length_of(path) > seen.anchors.labels[k].capitals_mm * mm]
     set_: dict[int, Lettering] = {k: set_along(letters, seen, k, paths[k], mm) for k in along}
     beside = [k for k in some if k not in set_]
     gap = np.array([_gap(seen.anchors.labels[k], mm) for k in beside])
@@ -811,7 +811,7 @@ def labels_on_page(
     measures = measures_on_page(letters, seen, {k: paths[k] for k in along}, set_, heads, shown, page, mm)
     set_ |= {k: measure.text for k, measure in measures.items()}
     sizes = np.array([np.ptp(text.bounds, axis=0) for text in texts]).reshape(-1, 2)
-    height = np.array([seen.anchors.labels[k].size_mm * mm for k in beside])
+    height = np.array([seen.anchors.labels[k].capitals_mm * mm for k in beside])
     taken = np.array([set_[k].bounds for k in along]).reshape(-1, 2, 2)
     asked = [_asked(seen.anchors.labels[k]) for k in beside]
     points = np.array([_named(seen, k, mm) for k in beside]).reshape(-1, 2)
@@ -894,7 +894,7 @@ def _asked(label: Label) -> str:
 def _gap(label: Label, mm: float) -> float:
     """From a point to the letters beside it: a mark there, and a little more than lines keep away."""
     mark = {"none": 0.0, "tick": TICK * MARK_MM, "arrow": ARROW_SLOPE * ARROW_MM}.get(label.mark, 0.7 * MARK_MM)
-    return max(GAP * label.size_mm, 1.5 * HALO_MM) * mm + mark * mm
+    return max(GAP * label.capitals_mm, 1.5 * HALO_MM) * mm + mark * mm
 
 
 def _side(middle: Floats, size: Floats, point: Floats) -> float:

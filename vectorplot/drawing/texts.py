@@ -15,7 +15,7 @@ class Texts:
     """Lines of text on the page, in letters of a font. strings: one line each; points (n,2) in mm: on the baseline;
     size_mm (n,): heights of capitals; turn_deg (n,): directions, counter-clockwise from x; anchor (n,): part of the
     line before its point, 0 to 1; room_mm (n,): lengths kept free; hidden_by (n,): items in front of what they name,
-    or 0.
+    or 0; latex: LaTeX's words for the sizes, of all lines or of none.
     """
 
     strings: tuple[str, ...]
@@ -25,6 +25,7 @@ class Texts:
     anchor: Floats
     room_mm: Floats
     hidden_by: Ints
+    latex: tuple[str, ...] = ()
 
     def __len__(self) -> int:
         return len(self.strings)
@@ -47,7 +48,13 @@ class Texts:
             np.concatenate([part.anchor for part in every]),
             np.concatenate([part.room_mm for part in every]),
             np.concatenate([part.hidden_by for part in every]),
+            tuple(word for part in every for word in part.in_latex),
         )
+
+    @property
+    def in_latex(self) -> tuple[str, ...]:
+        """LaTeX's word for the size of every line, empty where it has none."""
+        return self.latex or ("",) * len(self)
 
     def moved(self, way: Floats) -> Texts:
         """The same, moved on the page by (2,)."""

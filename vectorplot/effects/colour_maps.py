@@ -240,7 +240,7 @@ def _labels(
     for axis, (edge, along) in enumerate(zip(edges, numbers, strict=True)):
         if not edge.length > SHORT * longest:
             continue
-        deep, size = 0.0, SMALLER * box.size_mm
+        deep, size = 0.0, SMALLER * box.capitals_mm
         for value, text in zip(along.values, along.texts, strict=True):
             place = edge.corner.copy()
             place[axis] = value
@@ -255,9 +255,9 @@ def _labels(
             place = edge.corner.copy()
             place[axis] = middle[axis]
             off = deep + NAME_GAP_MM
-            room, _ = _beside(text, place, box.size_mm, edge.upright, edge.upright, off)
+            room, _ = _beside(text, place, box.capitals_mm, edge.upright, edge.upright, off)
             room = replace(room, is_dispensable=False)
-            names.append(Label(text, room, f"box {axis}", box.size_mm, "centre", "solid"))
+            names.append(Label(text, room, f"box {axis}", box.capitals_mm, "centre", "solid"))
     return [*names, *alone, *found]
 
 

@@ -23,7 +23,18 @@ from vectorplot.scene.annotations import (
     radius,
 )
 from vectorplot.scene.cuts import AWAY, AXES, Cut, Explosion
-from vectorplot.scene.labels import HIDDEN, MARKS, PLACES, Along, AtVertex, Label, OnCurve, OnPage, capital_height
+from vectorplot.scene.labels import (
+    DEFAULT_SIZE_MM,
+    HIDDEN,
+    MARKS,
+    PLACES,
+    Along,
+    AtVertex,
+    Label,
+    OnCurve,
+    OnPage,
+    capital_height,
+)
 from vectorplot.scene.light import Exposure, Light, check_exposure
 from vectorplot.scene.page import FIT, LENGTH, Page, length_mm, sheet_size
 from vectorplot.scene.pens import CUES, FINEST_MM, LONGEST_MM, PEN_KINDS, WIDEST_MM, DepthCue, PenOverrides
@@ -318,10 +329,11 @@ def read_colouring(words: Words, at: int) -> tuple[Colouring, int]:
 
 def read_box_axes(words: Words, at: int) -> tuple[BoxAxes, int]:
     """The box that the words from ``box_axes`` on describe, and the word behind them."""
-    names, size, after = ("x", "y", "z"), 3.5, at + 1
+    size: float | str = DEFAULT_SIZE_MM
+    names, after = ("x", "y", "z"), at + 1
     while (word := words.words[after]) in ("names", "size"):
         if word == "size":
-            size, after = words.number(after + 1, "box_axes: ", word), after + 2
+            size, after = words.string(after + 1), after + 2
             continue
         for place in range(after + 1, after + 4):
             if not words.words[place].startswith('"'):

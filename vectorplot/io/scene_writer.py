@@ -30,7 +30,7 @@ from vectorplot.scene.item import Item, Pattern
 from vectorplot.scene.labels import Along, AtVertex, BesidePoint, Label, OnCurve, OnPage
 from vectorplot.scene.light import Light
 from vectorplot.scene.material import FINISH_WORDS, Material
-from vectorplot.scene.page import Page
+from vectorplot.scene.page import Page, in_latex
 from vectorplot.scene.placement import FittedPage, PageOfWidth
 from vectorplot.scene.scales import Colouring
 from vectorplot.scene.scene import Scene
@@ -370,7 +370,7 @@ def write_scene(scene: Scene) -> str:
     if scene.colouring is not None:
         blocks.append(_colouring(scene.colouring))
     if scene.box is not None:
-        blocks.append(f"box_axes names {' '.join(map(dumps, scene.box.names))} size {scene.box.size_mm:.17g}")
+        blocks.append(f"box_axes names {' '.join(map(dumps, scene.box.names))} size {_size(scene.box.capitals_mm)}")
     if scene.page is not None:
         blocks.append(_page(scene.page))
     if scene.camera is not None:
@@ -408,7 +408,7 @@ def _names_listed(points: Floats) -> str:
 
 def _page(page: Page) -> str:
     if isinstance(page, PageOfWidth):
-        return f"page width {page.width_mm!r} margin {page.margin_mm!r}"
+        return f"page width {in_latex(page.width_mm) or repr(page.width_mm)} margin {page.margin_mm!r}"
     fit = " fit" if isinstance(page, FittedPage) else ""
     return f"page {page.width_mm!r}x{page.height_mm!r}{fit} margin {page.margin_mm!r}"
 
@@ -464,10 +464,15 @@ def _label(label: Label) -> str:
         _name(label.name) if label.name else '""',
         dumps(label.text),
         place,
-        f"size {float(label.size_mm)!r}",
+        f"size {_size(label.capitals_mm)}",
     ]
     words += [f"place {label.place}", *([f"hidden {label.hidden}"] if label.hidden else []), f"mark {label.mark}"]
     return " ".join(words)
+
+
+def _size(size_mm: float) -> str:
+    """A size of letters: the word that LaTeX has for it, or mm."""
+    return in_latex(size_mm) or repr(float(size_mm))
 
 
 def _item(item: Item, lights: tuple[Light, ...]) -> str:

@@ -126,8 +126,8 @@ def draw(
         Or its name or size, such as "A4", "A5 landscape" or "200x150"; where None that of the scene, else A4. Of "fit"
         the latter, cut to the picture and its margin.
     width : float or str, optional
-        In mm, or with its unit, such as "8cm" (mm, cm, in, pt): the page is as wide, and as high as its picture is
-        then; of page it has the margin.
+        In mm, or with its unit, such as "8cm" (mm, cm, in, pt, bp), or a width of LaTeX, such as "0.8\\\\linewidth":
+        the page is as wide, and as high as its picture is then; of page it has the margin.
     fit : bool
         The picture fills the page but for its margin; otherwise the page centre is the target and the page height the
         camera's picture height.

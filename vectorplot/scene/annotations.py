@@ -18,7 +18,16 @@ from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.vectors import cross, norm, normalize
 from vectorplot.scene.item import Item
-from vectorplot.scene.labels import DEFAULT_SIZE_MM, Along, AtVertex, BesidePoint, Label, OnCurve, OnPage
+from vectorplot.scene.labels import (
+    DEFAULT_SIZE_MM,
+    Along,
+    AtVertex,
+    BesidePoint,
+    Label,
+    OnCurve,
+    OnPage,
+    capital_height,
+)
 from vectorplot.scene.scene import Scene
 
 # Arrows and axes: curves in space, hidden like any others, and labels at them.
@@ -34,7 +43,7 @@ MOST_TICKS = 1000
 
 
 def arrow(
-    start: ArrayLike, end: ArrayLike, text: str = "", *, name: str = "", size_mm: float = DEFAULT_SIZE_MM
+    start: ArrayLike, end: ArrayLike, text: str = "", *, name: str = "", size_mm: float | str = DEFAULT_SIZE_MM
 ) -> Scene:
     """A straight arrow in space, with a text at its tip.
 
@@ -46,7 +55,7 @@ def arrow(
         What it is called.
     name : str
         Of the item; arrow and the text where none is given.
-    size_mm : float
+    size_mm : float or str
         Of the letters.
 
     Returns
@@ -77,7 +86,7 @@ def axes(
     origin: ArrayLike = (0.0, 0.0, 0.0),
     names: Sequence[str] = ("x", "y", "z"),
     ticks: float | None = None,
-    size_mm: float = DEFAULT_SIZE_MM,
+    size_mm: float | str = DEFAULT_SIZE_MM,
 ) -> Scene:
     """Three coordinate axes with their names, and numbers at ticks.
 
@@ -91,7 +100,7 @@ def axes(
         At their tips.
     ticks : float, optional
         The step between ticks; without one there are none.
-    size_mm : float
+    size_mm : float or str
         Of the names; numbers have two thirds of it.
 
     Returns
@@ -126,7 +135,9 @@ def axes(
         for at in (steps * (ticks or 0.0)).tolist():
             if at < 0.95 * one:
                 place = OnCurve(item.name, at / one)
-                labels.append(Label(f"{at:g}", place, f"{item.name} {at:g}", size_mm * 2.0 / 3.0, mark="tick"))
+                labels.append(
+                    Label(f"{at:g}", place, f"{item.name} {at:g}", capital_height(size_mm) * 2.0 / 3.0, mark="tick")
+                )
     return Scene(tuple(items), labels=tuple(labels))
 
 
@@ -182,7 +193,7 @@ def dimension(
     offset: ArrayLike,
     text: str | None = None,
     *,
-    size_mm: float = DEFAULT_SIZE_MM,
+    size_mm: float | str = DEFAULT_SIZE_MM,
     gap: float | None = None,
     beyond: float | None = None,
 ) -> Scene:
@@ -196,7 +207,7 @@ def dimension(
         From these points to the dimension line.
     text : str, optional
         What it says: the distance of the points where nothing is given.
-    size_mm : float
+    size_mm : float or str
         Of the letters.
     gap, beyond : float, optional
         How far from the points extension lines begin, and how far beyond the dimension line they end, in world units;
@@ -251,7 +262,7 @@ def angle(
     radius: float,
     text: str | None = None,
     *,
-    size_mm: float = DEFAULT_SIZE_MM,
+    size_mm: float | str = DEFAULT_SIZE_MM,
 ) -> Scene:
     """The arc of an angle, with arrowheads and its measure.
 
@@ -265,7 +276,7 @@ def angle(
         Of the arc, in world units.
     text : str, optional
         What it says: the angle in degrees where nothing is given.
-    size_mm : float
+    size_mm : float or str
         Of the letters.
 
     Returns
@@ -299,7 +310,9 @@ def angle(
     return Scene((item,), labels=(*_heads(item.name, size_mm), label))
 
 
-def radius(centre: ArrayLike, point: ArrayLike, text: str | None = None, *, size_mm: float = DEFAULT_SIZE_MM) -> Scene:
+def radius(
+    centre: ArrayLike, point: ArrayLike, text: str | None = None, *, size_mm: float | str = DEFAULT_SIZE_MM
+) -> Scene:
     """The dimension of a radius: a line from the centre to a point of the circle, with an arrowhead there.
 
     Parameters
@@ -308,7 +321,7 @@ def radius(centre: ArrayLike, point: ArrayLike, text: str | None = None, *, size
         In the world.
     text : str, optional
         What it says: R and the radius where nothing is given.
-    size_mm : float
+    size_mm : float or str
         Of the letters.
 
     Returns
@@ -335,7 +348,7 @@ def radius(centre: ArrayLike, point: ArrayLike, text: str | None = None, *, size
 
 
 def diameter(
-    centre: ArrayLike, point: ArrayLike, text: str | None = None, *, size_mm: float = DEFAULT_SIZE_MM
+    centre: ArrayLike, point: ArrayLike, text: str | None = None, *, size_mm: float | str = DEFAULT_SIZE_MM
 ) -> Scene:
     """The dimension of a diameter: a line across a circle through its centre, with arrowheads.
 
@@ -347,7 +360,7 @@ def diameter(
         One of its ends, on the circle.
     text : str, optional
         What it says: ø and the diameter where nothing is given.
-    size_mm : float
+    size_mm : float or str
         Of the letters.
 
     Returns
@@ -372,7 +385,7 @@ def diameter(
     return Scene((item,), labels=_measured(item.name, said, size_mm))
 
 
-def leader(point: ArrayLike, elbow: ArrayLike, text: str, *, size_mm: float = DEFAULT_SIZE_MM) -> Scene:
+def leader(point: ArrayLike, elbow: ArrayLike, text: str, *, size_mm: float | str = DEFAULT_SIZE_MM) -> Scene:
     """A line from a text to what it is about, with an arrowhead there.
 
     Parameters
@@ -383,7 +396,7 @@ def leader(point: ArrayLike, elbow: ArrayLike, text: str, *, size_mm: float = DE
         Where the text is.
     text : str
         What it says.
-    size_mm : float
+    size_mm : float or str
         Of the letters.
 
     Returns
@@ -488,12 +501,12 @@ def centre_mark(
     return Scene(tuple(Item(name, one.items[0].shape, "black", lines=("centre",), group=group) for name, one in marks))
 
 
-def _measured(name: str, said: str, size_mm: float) -> tuple[Label, ...]:
+def _measured(name: str, said: str, size_mm: float | str) -> tuple[Label, ...]:
     """Arrowheads at both ends of a curve, and a text along it."""
     return (*_heads(name, size_mm), Label(said, Along(name), name, size_mm, "above"))
 
 
-def _heads(name: str, size_mm: float) -> tuple[Label, ...]:
+def _heads(name: str, size_mm: float | str) -> tuple[Label, ...]:
     """Arrowheads at both ends of a curve."""
     ends = enumerate((0.0, 1.0))
     return tuple(Label("", OnCurve(name, part), f"{name} end {k}", size_mm, mark="arrow") for k, part in ends)

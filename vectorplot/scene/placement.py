@@ -305,7 +305,7 @@ def page_of(page: Page | str | None, scene: Scene, width: float | str | None = N
     """
     sheet = _sheet_of(page, scene)
     if width is not None:
-        sheet = page_of_width(sheet, length_mm(width) if isinstance(width, str) else float(width))
+        sheet = page_of_width(sheet, length_mm(width) if isinstance(width, str) else width)
     if not fit and isinstance(sheet, FittedPage | PageOfWidth):
         raise InputError("a page as large as its picture, or of a width, does not go with no-fit")
     return sheet

@@ -14,6 +14,7 @@ from vectorplot.errors import InputError
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.mesh_cuts import nothing_beside
 from vectorplot.geometry.triangles import PlacedTriangles
+from vectorplot.scene.labels import DEFAULT_SIZE_MM, capital_height
 
 # What a picture shows besides its scene to be read as a chart: colours that are numbers, a box with ticks.
 
@@ -77,8 +78,8 @@ class BoxAxes:
     ----------
     names : three str
         Of the axes.
-    size_mm : float
-        Height of the capitals of the names; numbers have three quarters of it.
+    size_mm : float or str
+        Height of the capitals of the names, or their size of type as in "10pt"; numbers have three quarters of it.
 
     Raises
     ------
@@ -96,13 +97,20 @@ class BoxAxes:
     """
 
     names: tuple[str, str, str] = ("x", "y", "z")
-    size_mm: float = 3.5
+    size_mm: float | str = DEFAULT_SIZE_MM
 
     def __post_init__(self) -> None:
         if len(self.names) != 3 or not all(isinstance(name, str) for name in self.names):
             raise InputError("box: expected three names")
-        if not 0.0 < self.size_mm < float("inf"):
-            raise InputError(f"box: a size of {self.size_mm:g} mm: expected a number that is finite and positive")
+        try:
+            object.__setattr__(self, "size_mm", capital_height(self.size_mm))
+        except InputError as error:
+            raise InputError(f"box: {error.cause}") from None
+
+    @property
+    def capitals_mm(self) -> float:
+        """The height of the capitals of the names."""
+        return capital_height(self.size_mm)
 
 
 # Numbers that a file has at the vertices and on the faces of a mesh.

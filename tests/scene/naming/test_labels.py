@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import pickle
+
 import numpy as np
 import pytest
 
@@ -13,6 +15,7 @@ from vectorplot.io.anything import scene_of
 from vectorplot.io.scene_writer import write_scene
 from vectorplot.scene.annotations import label_anchors
 from vectorplot.scene.labels import capital_height
+from vectorplot.scene.page import in_latex
 from vectorplot.surfaces import Sphere
 
 ITEMS = (vp.Item("CUBE", box((2, 2, 2))), vp.Item("RING", Circle(radius=2.0)), vp.Item("BALL", Sphere(1.0)))
@@ -30,10 +33,22 @@ RING curve circle 2
 
 def test_sizes_in_mm_and_in_points() -> None:
     assert capital_height("3.5") == capital_height("3.5mm") == 3.5
-    assert capital_height("72pt") == pytest.approx(0.7 * 25.4)
-    for wrong in ("", "big", "-1", "0mm", "nan", "infpt", "3 cm"):
+    assert capital_height("72.27pt") == capital_height("72 bp") == pytest.approx(0.7 * 25.4)
+    assert vp.Label("A", (0, 0, 0), size_mm="72bp").size_mm == pytest.approx(0.7 * 25.4)
+    for wrong in ("", "big", "-1", "0mm", "nan", "infpt", "3 cm", "\\huger", "small", None, True):
         with pytest.raises(vp.InputError, match="a size of"):
             capital_height(wrong)
+
+
+@pytest.mark.parametrize("word", [r"\small", r"\Huge"])
+def test_a_size_of_latex_keeps_its_word_in_files_and_copies(word: str) -> None:
+    label = vp.Label("A", (0, 0, 4), size_mm=word)
+    scene = io.parse_scene(f'box_axes size {word} label A "A" at 0 0 4 size {word}')
+    assert scene.labels == (label,) and in_latex(scene.labels[0].capitals_mm) == word
+    again = pickle.loads(pickle.dumps(io.parse_scene(write_scene(scene))))
+    assert in_latex(again.labels[0].capitals_mm) == in_latex(again.box.capitals_mm) == word
+    ticks = vp.axes(2, ticks=1, size_mm=word).labels
+    assert {label.capitals_mm for label in ticks} == {label.capitals_mm, label.capitals_mm * 2 / 3}
 
 
 def test_scene_files_say_the_same_as_python() -> None:

@@ -16,6 +16,9 @@ from vectorplot.io.scene_language import parse_scene
 from vectorplot.scene.page import Page
 from vectorplot.scene.placement import fitted_page, fitted_picture, page_of_width
 
+POINT = 25.4 / 72.27
+"""A point of TeX in mm."""
+
 SLAB = vp.Scene((vp.Item("slab", box((4.0, 1.0, 2.0))),), page=Page(100.0, 200.0, 5.0))
 POLE = vp.Scene((vp.Item("pole", box((1.0, 1.0, 30.0))),))
 VERBS = (vp.draw, vp.paint)
@@ -58,10 +61,12 @@ def test_a_page_that_fits_is_the_picture_and_its_margin(verb, scale):
 
 @pytest.mark.parametrize("verb", VERBS)
 @pytest.mark.parametrize("scene", [SLAB, POLE])
-@pytest.mark.parametrize("width", [40.0, "40", "40mm", "4 cm", "1.5in", "120pt"])
+@pytest.mark.parametrize("width", [40.0, "40", "40mm", "4 cm", "1.5in", "120pt", "120bp", r"0.5\linewidth"])
 def test_a_page_of_a_width_is_as_high_as_its_picture(verb, scene, width):
     drawing = verb(scene, "front", page=Page(70.0, 30.0, 3.0), width=width)
-    mm = {"1.5in": 38.1, "120pt": 120.0 * 25.4 / 72.0}.get(width, 40.0)
+    mm = {"1.5in": 38.1, "120pt": 120.0 * POINT, "120bp": 120.0 * 25.4 / 72.0, r"0.5\linewidth": 172.5 * POINT}.get(
+        width, 40.0
+    )
     ratio = 0.5 if scene is SLAB else 30.0
     np.testing.assert_allclose(page_of(drawing), (mm, (mm - 6.0) * ratio + 6.0), rtol=1e-9)
     np.testing.assert_allclose(extent(drawing), [(3, 3), page_of(drawing) - 3], rtol=1e-9)
@@ -109,7 +114,7 @@ def test_an_empty_picture_and_one_of_the_field_of_vision_have_a_whole_page(verb)
 @pytest.mark.parametrize(
     ("said", "told"),
     [
-        ({"width": "8x"}, "'8x' is no length: expected a positive number, and perhaps mm, pt, cm, in"),
+        ({"width": "8x"}, "'8x' is no length: expected a positive number, and perhaps mm, pt, bp, cm, in"),
         ({"width": "1e999"}, "'1e999' is no length"),
         ({"width": 15}, "a margin of 10 mm leaves nothing of the page"),
         ({"width": -1}, "not a page"),
