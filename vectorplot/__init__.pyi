@@ -3,7 +3,7 @@ from .animation.animation import Animation
 from .animation.animation_file import read_animation
 from .drawing.drawing import Drawing, Layer, Paths, Pen
 from .drawing.pens import Style
-from .drawing.sheets import Sheet, contact_sheet
+from .drawing.sheets import Sheet, contact_sheet, panels
 from .effects.cuts import cut
 from .errors import InputError, InputWarning
 from .features.zero_curves import zero_manifold_of_f_uv
@@ -84,6 +84,7 @@ __all__ = [
     "graph",
     "leader",
     "paint",
+    "panels",
     "panorama",
     "radius",
     "read",

@@ -270,6 +270,7 @@ MATERIALS = {
     "plastic": "plastic",
     "transparent": "transparent",
     "mirror": "mirror",
+    "unlit": "unlit",
 }
 """Words for physical properties, and the material each one names."""
 

@@ -66,6 +66,7 @@ SCENE_WORDS = (
         "cut",
         "colour_by",
         "box_axes",
+        "scale_bar",
         "exposure",
         "depth_cue",
     ),

@@ -31,7 +31,7 @@ from vectorplot.scene.labels import Along, AtVertex, BesidePoint, Label, OnCurve
 from vectorplot.scene.light import Light
 from vectorplot.scene.material import FINISH_WORDS, Material
 from vectorplot.scene.page import Page, in_latex
-from vectorplot.scene.placement import FittedPage, PageOfWidth
+from vectorplot.scene.placement import FittedPage, PageAtScale, PageOfWidth
 from vectorplot.scene.scales import Colouring
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.surface_lines import NO_LINES, Roads, Serpentine, SurfaceLines, TerrainLines, WaterCourses
@@ -371,6 +371,10 @@ def write_scene(scene: Scene) -> str:
         blocks.append(_colouring(scene.colouring))
     if scene.box is not None:
         blocks.append(f"box_axes names {' '.join(map(dumps, scene.box.names))} size {_size(scene.box.capitals_mm)}")
+    if scene.scale_bar is not None:
+        bar = scene.scale_bar
+        length = "" if bar.length is None else f" length {bar.length:.17g}"
+        blocks.append(f"scale_bar {dumps(bar.unit)}{length} size {_size(bar.capitals_mm)}")
     if scene.page is not None:
         blocks.append(_page(scene.page))
     if scene.camera is not None:
@@ -393,8 +397,13 @@ def _name(text: str) -> str:
 def _colouring(own: Colouring) -> str:
     if not isinstance(own.by, str):
         raise InputError("colours by a function of Python have no words")
-    called = "" if own.label is None else f" called {dumps(own.label)}"
-    return f"colour_by {dumps(own.by)} map {dumps(own.colour_map)} steps {own.steps}{called}"
+    words = [f"colour_by {dumps(own.by)} map {dumps(own.colour_map)} steps {own.steps}"]
+    words += [] if own.label is None else [f"called {dumps(own.label)}"]
+    words += [f"classes {', '.join(f'{limit:.17g}' for limit in own.at)}"] if own.at else []
+    words += [f"{word} {end:.17g}" for word, end in (("low", own.low), ("high", own.high)) if end is not None]
+    words += [f"{word} {_colour(name)}" for word, name in (("under", own.under), ("over", own.over)) if name]
+    words += [*(["logarithmic"] if own.logarithmic else []), *([] if own.is_lit else ["unlit"])]
+    return " ".join([*words, f"size {_size(own.capitals_mm)}"])
 
 
 def _colour(text: str) -> str:
@@ -409,6 +418,8 @@ def _names_listed(points: Floats) -> str:
 def _page(page: Page) -> str:
     if isinstance(page, PageOfWidth):
         return f"page width {in_latex(page.width_mm) or repr(page.width_mm)} margin {page.margin_mm!r}"
+    if isinstance(page, PageAtScale):
+        return f"page scale {page.mm_per_unit!r} margin {page.margin_mm!r}"
     fit = " fit" if isinstance(page, FittedPage) else ""
     return f"page {page.width_mm!r}x{page.height_mm!r}{fit} margin {page.margin_mm!r}"
 

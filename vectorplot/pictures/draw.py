@@ -29,7 +29,7 @@ from vectorplot.pictures.lines import (
 from vectorplot.pictures.options import check_look, check_options
 from vectorplot.pictures.pipeline import Pipeline, StageReport, stoppable
 from vectorplot.pictures.plan import accuracy_of_draw, plan_arcs, plan_draw, plan_hatching, with_accuracy
-from vectorplot.pictures.prepared_scene import Paper, beside_bar, left_of_bar, prepared_scene
+from vectorplot.pictures.prepared_scene import Legend, Paper, prepared_scene
 from vectorplot.pictures.promises import DRAWING, promised
 from vectorplot.scene.added_lines import with_default_lines
 from vectorplot.scene.hatching import Hatching, Stippling
@@ -260,7 +260,8 @@ def draw(
     paper = Paper(sheet, fit, pen_scale(sheet) if scale_pens else 1.0)
     prepared = prepared_scene(given, camera, paper, explain, progress, depth_cue=depth_cue)
     seen, bar = prepared.scene, prepared.bar
-    sheet, strip = left_of_bar(sheet, bar)
+    legend = Legend(sheet, bar, seen.scale_bar, text)
+    sheet = legend.room
     rules = (*chosen.rules, *own, *asked)
     finish = OutputStyle(
         look=chosen.look,
@@ -312,7 +313,7 @@ def draw(
         pipeline.measured("arcs", "mm", rounding_error_mm, inks)
     if labels is not None:
         inks, placement = finish.labelled(inks, placement, labels, letters, sheet)
-    drawing = beside_bar(finish.drawing(inks, placement, seen, letters), bar, strip, finish.background, longest_mm)
+    drawing = legend.around(finish.drawing(inks, placement, seen, letters), finish.background, longest_mm)
     drawing = finish.of_pens(pipeline, drawing)
     pipeline.measured("pen", "mm", fit_error_mm, drawing.layers)
     return drawing

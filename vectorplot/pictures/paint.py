@@ -31,7 +31,7 @@ from vectorplot.pictures.lines import PEN, LineOverlay, places_beside_faces
 from vectorplot.pictures.options import SHADOWS, check_options
 from vectorplot.pictures.pipeline import Pipeline, StageReport, stoppable
 from vectorplot.pictures.plan import accuracy_of_paint, has_bodies, plan_bodies, plan_paint, with_accuracy
-from vectorplot.pictures.prepared_scene import Paper, beside_bar, left_of_bar, prepared_scene, room_for_labels, titled
+from vectorplot.pictures.prepared_scene import Legend, Paper, prepared_scene, room_for_labels, titled
 from vectorplot.pictures.promises import PAINTING, promised
 from vectorplot.scene.added_lines import with_default_lines
 from vectorplot.scene.light import Exposure, Light
@@ -267,7 +267,8 @@ def paint(
     names = tuple(item.name for item in scene.items)
     over = chosen if bar is None else replace(chosen, rules=bar.with_pens(chosen.rules))
     check_targets(over.rules, names)
-    sheet, strip = left_of_bar(sheet, bar)
+    legend = Legend(sheet, bar, scene.scale_bar, text)
+    sheet = legend.room
     stages = with_accuracy(plan_paint(scene, shadows, fills, kinds), accuracy_of_paint(tolerance_mm))
     if smooth and fills == "painted" and subject.chart is None and has_bodies(scene) and not aura_mm:
         stages = plan_bodies(stages)
@@ -355,4 +356,4 @@ def paint(
             layers = (replace(layers[0], marks=(*background_of(scene, page), *layers[0].marks)), *layers[1:])
     layers = titled(layers, placement, title, frame, over.border(letters), text=text)
     drawing = Drawing(page.width_mm, page.height_mm, layers, names, scene.title, world)
-    return beside_bar(drawing, bar, strip, scene.background)
+    return legend.around(drawing, scene.background)

@@ -3,7 +3,7 @@ from .cuts import Cut, CutPlane
 from .face_looks import FaceLook, FaceLooks
 from .item import SurfaceNormals
 from .pens import DepthCue, PenOverrides
-from .scales import BoxAxes, Colouring, Fields
+from .scales import BoxAxes, Colouring, Fields, ScaleBar
 from .surface_lines import (
     FieldLines,
     GeodesicLines,
@@ -33,6 +33,7 @@ __all__ = [
     "GeodesicsBetween",
     "PenOverrides",
     "Roads",
+    "ScaleBar",
     "Serpentine",
     "ShortestPaths",
     "SurfaceNormals",

@@ -117,6 +117,9 @@ SHEETS = {
 FIT = "fit"
 """The word for a page as large as its picture."""
 
+SCALE = "scale"
+"""The word before the scale of a page as large as its picture."""
+
 MM_PER_INCH = 25.4
 """By definition."""
 
@@ -189,3 +192,18 @@ def sheet_size(text: str) -> tuple[float, float]:
     if not (0.0 < width < math.inf and 0.0 < height < math.inf):
         raise InputError(f"page {text!r}: expected WIDTHxHEIGHT in mm or one of {', '.join(SHEETS)}")
     return width, height
+
+
+def scale_ratio(text: str) -> tuple[float, float]:
+    """Lengths on paper, in mm, and in the world of a scale such as 1:2, 5:1, or 2.5: mm for a unit.
+
+    Errors: InputError for another text, and numbers that are not finite and positive.
+    """
+    sides = re.fullmatch(r"\s*([^:]+)(?::([^:]+))?", str(text))
+    try:
+        paper, world = (float(side) for side in (sides[1], sides[2] or "1")) if sides else (math.nan, math.nan)
+    except ValueError:
+        paper = world = math.nan
+    if not (0.0 < paper < math.inf and 0.0 < world < math.inf and 0.0 < paper / world < math.inf):
+        raise InputError(f"scale {text!r}: expected two numbers such as 1:2")
+    return paper, world

@@ -26,7 +26,7 @@ from vectorplot.scene.labels import Label, renamed
 from vectorplot.scene.light import Exposure, Light, check_exposure
 from vectorplot.scene.page import Page
 from vectorplot.scene.pens import DepthCue, PenOverrides
-from vectorplot.scene.scales import BoxAxes, Colouring
+from vectorplot.scene.scales import BoxAxes, Colouring, ScaleBar
 from vectorplot.surfaces.capped_bodies import ball_of, bounds_of_balls, bounds_of_capped_quadrics, capped_quadric_of
 from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_implicit, is_parametrised
 from vectorplot.words import check_colour
@@ -58,6 +58,8 @@ class Scene(Movable["Scene"]):
         Colours of all bodies by a number, and the bar that explains them.
     box : BoxAxes, optional
         A box with ticks around all items.
+    scale_bar : ScaleBar, optional
+        A bar below the picture that is as long as a length in it.
     cuts : tuple of Cut
         What is cut away where the scene is drawn, painted or rendered.
     exposure : float or {"fitted"}
@@ -106,6 +108,7 @@ class Scene(Movable["Scene"]):
     inks: PenOverrides | None = None
     explosion: Explosion | None = None
     exaggeration: float = 1.0
+    scale_bar: ScaleBar | None = None
 
     def __post_init__(self) -> None:
         # The first one tells: a scene may have a million items, and is made anew by every stage.
@@ -239,6 +242,7 @@ def together(scenes: Sequence[Scene]) -> Scene:
         inks=next((_inks(scene, items[end - len(scene) : end]) for scene, end in parts if scene.inks), None),
         explosion=next((scene.explosion for scene in scenes if scene.explosion), None),
         exaggeration=next((scene.exaggeration for scene in scenes if scene.exaggeration != 1.0), 1.0),
+        scale_bar=next((scene.scale_bar for scene in scenes if scene.scale_bar), None),
     )
 
 
