@@ -513,11 +513,17 @@ def _read_surface(reader: ItemCursor, draft: Draft) -> None:
 
 
 def _read_terrain(reader: ItemCursor, draft: Draft) -> None:
-    from vectorplot.io.scene_surfaces import read_terrain_mesh
+    from vectorplot.io.scene_surfaces import TERRAIN_SUFFIXES, read_terrain_mesh
 
     reader.kind(draft, "terrain")
     reader.once(draft, "terrain")
-    draft.terrain, reader.at = read_terrain_mesh(reader.source, reader.at, draft.owner)
+    path = None
+    if reader.words[reader.at].startswith('"'):
+        if reader.files is None:
+            reader.fail("a text without a file names no files", draft)
+        path = reader.files.named(reader.source, reader.at, draft.owner, TERRAIN_SUFFIXES)
+        reader.at += 1
+    draft.terrain, reader.at = read_terrain_mesh(reader.source, reader.at, draft.owner, path)
 
 
 def _read_curve(reader: ItemCursor, draft: Draft) -> None:

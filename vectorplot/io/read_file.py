@@ -36,9 +36,7 @@ _SUFFIXES = {
     ".blend": ("a Blender file", _EXPORT_MESH),
     ".x3d": ("an X3D file", _EXPORT_MESH),
     ".wrl": ("a VRML file", _EXPORT_MESH),
-    ".vtk": ("a VTK file", _EXPORT_MESH),
     ".vtp": ("a VTK file", _EXPORT_MESH),
-    ".vtu": ("a VTK file", _EXPORT_MESH),
     ".msh": ("a Gmsh mesh", _EXPORT_MESH),
     ".usd": ("a USD file", _EXPORT_MESH),
     ".usda": ("a USD file", _EXPORT_MESH),
@@ -75,7 +73,7 @@ _BEGINNINGS = (
     (b"OFF\r", "an OFF file", "give its name the suffix .off"),
     (b"Kaydara FBX", *_SUFFIXES[".fbx"]),
     (b"#VRML", *_SUFFIXES[".wrl"]),
-    (b"# vtk", *_SUFFIXES[".vtk"]),
+    (b"# vtk", "a VTK file", "give its name the suffix .vtk"),
     (b"<", "an XML file", "it is neither a scene nor a mesh"),
     (b"{", "a JSON file", "it is neither a scene nor a mesh"),
 )
@@ -100,7 +98,7 @@ SCENE_SUFFIXES = (".scene", ".txt")
 
 
 def read(path: str | os.PathLike[str], *, exaggeration: float | None = None) -> Scene:
-    """The scene in a file: a mesh (obj, stl, ply, off, glb), a molecule (xyz, pdb, cif), a terrain (asc, xyz), or the
+    """The scene in a file: a mesh (obj, stl, ply, off, glb, vtk, vtu), a molecule (xyz, pdb, cif), a terrain (asc, xyz), or the
     scene language (any other suffix). exaggeration: factor of a terrain's heights; where None, extreme heights are
     scaled by 1, 2 or 5 times a power of ten, with an InputWarning. A mesh file gives one item, or one for each
     object or node. Meshes are repaired (see mesh_repair.repaired), reported in one InputWarning a file.

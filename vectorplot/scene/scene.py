@@ -58,8 +58,6 @@ class Scene(Movable["Scene"]):
         Colours of all bodies by a number, and the bar that explains them.
     box : BoxAxes, optional
         A box with ticks around all items.
-    scale_bar : ScaleBar, optional
-        A bar below the picture that is as long as a length in it.
     cuts : tuple of Cut
         What is cut away where the scene is drawn, painted or rendered.
     exposure : float or {"fitted"}
@@ -74,6 +72,8 @@ class Scene(Movable["Scene"]):
     exaggeration : float
         What heights in it were multiplied with: those that pictures write, on level lines, beside boxes and colour
         bars, are divided by it. Scene files say nothing of it.
+    scale_bar : ScaleBar, optional
+        A bar below the picture that is as long as a length in it.
 
     Raises
     ------

@@ -101,8 +101,8 @@ if TYPE_CHECKING:
     ),
 )
 def draw(scene: Scene, **told: Any) -> Drawing:
-    """Draw INPUT, a scene file (- for stdin), mesh (obj, stl, ply, off, glb), molecule (xyz, pdb, cif) or terrain
-    (asc, xyz), and write OUT (svg, ps, eps, pdf, png, tex, dxf, json).
+    """Draw INPUT, a scene file (- for stdin), mesh (obj, stl, ply, off, glb, vtk, vtu), molecule (xyz, pdb, cif) or
+    terrain (asc, xyz), and write OUT (svg, ps, eps, pdf, png, tex, dxf, json).
 
     Camera options replace the fields of the camera in the scene file one by one.
     """

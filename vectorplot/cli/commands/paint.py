@@ -56,8 +56,8 @@ if TYPE_CHECKING:
     TEXT,
 )
 def paint(scene: Scene, **told: Any) -> Drawing:
-    """Paint INPUT, a scene file (- for stdin), mesh (obj, stl, ply, off, glb), molecule (xyz, pdb, cif) or terrain
-    (asc, xyz), and write OUT (svg, ps, eps, pdf, png, tex, dxf, json).
+    """Paint INPUT, a scene file (- for stdin), mesh (obj, stl, ply, off, glb, vtk, vtu), molecule (xyz, pdb, cif) or
+    terrain (asc, xyz), and write OUT (svg, ps, eps, pdf, png, tex, dxf, json).
 
     Camera options replace the fields of the camera in the scene file one by one.
     """
