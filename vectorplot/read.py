@@ -15,8 +15,8 @@ def read(path: str | os.PathLike[str], *, exaggeration: float | None = None) -> 
     Parameters
     ----------
     path : str or path
-        A mesh (obj, stl, ply, off, glb, vtk, vtu), a molecule (xyz, pdb, cif), a terrain (asc, xyz), a drawing (json), or a text
-        in the scene language (any other suffix).
+        A mesh (obj, stl, ply, off, glb, vtk, vtu), a molecule (xyz, pdb, cif), a terrain (asc, xyz), a drawing (json),
+        or a text in the scene language (any other suffix).
     exaggeration : float, optional
         What heights of a terrain are multiplied with. Where None they are left as they are, unless they would be seen
         as a plain or a needle: then they are made 1, 2 or 5 times a power of ten higher, and a warning says so.

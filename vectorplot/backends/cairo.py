@@ -33,6 +33,7 @@ from vectorplot.backends.shaded_triangles import Underlaps, grown, underlaps
 from vectorplot.drawing.drawing import Drawing, Layer, Pen
 from vectorplot.drawing.fills import SEAM_MM, Fills
 from vectorplot.drawing.sheets import Mark, moved_mark
+from vectorplot.drawing.texts import is_font_file
 from vectorplot.errors import InputError, not_installed
 from vectorplot.geometry import ragged
 from vectorplot.shading.image import DPI, Bytes, with_meaning
@@ -470,7 +471,9 @@ FAMILY = "sans-serif"
 
 def show(context: cairo.Context[Any], texts: PageTexts, scale: float, height: float) -> None:
     """Write the texts; scale: device units per micron; height: of the page's lower border in them, from the top."""
-    context.select_font_face(FAMILY, cairo.FONT_SLANT_NORMAL, cairo.FONT_WEIGHT_NORMAL)
+    if is_font_file(texts.font):
+        raise InputError(f"font {texts.font}: a file is for .svg; others take installed fonts by their names")
+    context.select_font_face(texts.font or FAMILY, cairo.FONT_SLANT_NORMAL, cairo.FONT_WEIGHT_NORMAL)
     for x, y, size, turn, anchor, colour, string in texts.lines(texts.plain):
         context.save()
         context.set_source_rgb(*(int(colour[k : k + 2], 16) / 255.0 for k in (1, 3, 5)))

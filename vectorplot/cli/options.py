@@ -705,6 +705,10 @@ TEXT = click.option(
     help="Letters: strokes of the pen; in fonts of the reader; or, with a .pdf or .eps, in a .tex beside it.",
 )
 
+FONT = click.option(
+    "--font", metavar="NAME|FILE", help="Of real text: a family that is installed, or, in SVG, a .ttf, .otf or .woff."
+)
+
 BUDGET = click.option(
     "--budget", type=POSITIVE, default=1.0, metavar="FACTOR", help="Times the usual work on a surface."
 )

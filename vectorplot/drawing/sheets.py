@@ -149,7 +149,8 @@ class Sheet:
         drawn = {key: tuple(mark for mark in marks if len(mark)) for key, marks in merged.items()}
         layers = tuple(Layer(name, pen, marks, plotted) for (name, pen, plotted), marks in drawn.items() if marks)
         page = page_of(self.page, Scene(()))
-        return Drawing(page.width_mm, page.height_mm, layers, names, self.title)
+        font = next((placed.drawing.font for placed in self.drawings if placed.drawing.font), "")
+        return Drawing(page.width_mm, page.height_mm, layers, names, self.title, font=font)
 
 
 def moved_mark(mark: Mark, scale: float, by: Floats) -> Mark:

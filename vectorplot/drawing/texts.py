@@ -2,12 +2,33 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from pathlib import Path
 
 import numpy as np
 
 from vectorplot.arrays import Floats, Ints
+from vectorplot.errors import InputError, printable
+
+FONT_SUFFIXES = (".ttf", ".otf", ".woff", ".woff2")
+"""Those of files of fonts."""
+
+
+def is_font_file(font: str) -> bool:
+    """Whether the name of a font is that of a file."""
+    return font.lower().endswith(FONT_SUFFIXES)
+
+
+def check_font(font: str) -> None:
+    """An InputError for what is no name of a family of fonts, and no file of one that is there."""
+    name = Path(font).stem if is_font_file(font) else font
+    if not re.fullmatch(r"[\w .\-]+", name):
+        said = f"expected the name of a family, or a file that ends in {', '.join(FONT_SUFFIXES)}"
+        raise InputError(f"font {printable(font)!r}: {said}")
+    if is_font_file(font) and not Path(font).is_file():
+        raise InputError("no such font file", file=font)
 
 
 @dataclass(frozen=True, eq=False)

@@ -98,8 +98,8 @@ CELL_FIELDS = ("point_data", "cell_data")
 def mesh_of_cells(
     points: np.ndarray[Any, Any], cells: Any, at_points: Any, of_cells: Any
 ) -> tuple[Mesh, Fields | None]:
-    """The faces of blocks of cells, as faces_of_cells lists them, and the numbers at points (n,2) or (n,3) and of cells,
-    by their names, of the latter a list for each block. Errors: see faces_of_cells."""
+    """The faces of blocks of cells, as faces_of_cells lists them, and the numbers at points (n,2) or (n,3) and in cells
+    by their names, in cells a list for each block. Errors: see faces_of_cells."""
     corners, offsets = faces_of_cells(cells)
     at_faces = {name: values_of_faces(cells, values) for name, values in of_cells.items()}
     flat = np.column_stack([points, np.zeros(len(points))]) if points.shape[1] == 2 else points
@@ -123,8 +123,7 @@ CELL_SUFFIXES = (".vtk", ".vtu")
 def read_cells(path: Path) -> MeshFile:
     """The faces and fields of a file with one of CELL_SUFFIXES: of volumes the outer faces.
 
-    Errors: InputError where meshio is not installed, does not understand the file, and for cells without faces of a kind
-    that is known.
+    Errors: InputError where meshio is not installed or does not understand the file, and for cells of an unknown kind.
     """
     check_file(path)
     try:

@@ -98,7 +98,7 @@ SCENE_SUFFIXES = (".scene", ".txt")
 
 
 def read(path: str | os.PathLike[str], *, exaggeration: float | None = None) -> Scene:
-    """The scene in a file: a mesh (obj, stl, ply, off, glb, vtk, vtu), a molecule (xyz, pdb, cif), a terrain (asc, xyz), or the
+    """The scene in a file: a mesh (one of MESH_SUFFIXES), a molecule (xyz, pdb, cif), a terrain (asc, xyz), or the
     scene language (any other suffix). exaggeration: factor of a terrain's heights; where None, extreme heights are
     scaled by 1, 2 or 5 times a power of ten, with an InputWarning. A mesh file gives one item, or one for each
     object or node. Meshes are repaired (see mesh_repair.repaired), reported in one InputWarning a file.

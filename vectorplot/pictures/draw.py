@@ -26,7 +26,7 @@ from vectorplot.pictures.lines import (
     traceable,
     with_outline,
 )
-from vectorplot.pictures.options import check_look, check_options
+from vectorplot.pictures.options import check_letters, check_look, check_options
 from vectorplot.pictures.pipeline import Pipeline, StageReport, stoppable
 from vectorplot.pictures.plan import accuracy_of_draw, plan_arcs, plan_draw, plan_hatching, with_accuracy
 from vectorplot.pictures.prepared_scene import Legend, Paper, prepared_scene
@@ -105,6 +105,7 @@ def draw(
     title: str = "",
     frame: bool = False,
     text: Literal["strokes", "real"] = "strokes",
+    font: str | None = None,
     longest_mm: float | None = None,
     shortest_mm: float | None = None,
     off_by: float | str | None = None,
@@ -181,6 +182,8 @@ def draw(
         A rectangle in the middle of the margin, which ends before the title.
     text : {"strokes", "real"}
         Letters of labels and titles are strokes of the pen; or texts, set in fonts by what reads the file.
+    font : str, optional
+        The family of fonts of texts, which PDF, PostScript and PNG hold then; or a file of a font, which SVG holds.
     longest_mm : float, optional
         Longer strokes leave in equal parts that are no longer, for plotters that stutter on them; 1 mm or more.
     shortest_mm : float, optional
@@ -243,6 +246,7 @@ def draw(
     """
     told = dict(locals())
     check_options(told)
+    check_letters(font, text)
     if off_by is not None or within is not None:
         return promised(draw, DRAWING, told)
     given = scene_of(scene) if lines is not None else with_default_lines(scene_of(scene))
@@ -314,6 +318,6 @@ def draw(
     if labels is not None:
         inks, placement = finish.labelled(inks, placement, labels, letters, sheet)
     drawing = legend.around(finish.drawing(inks, placement, seen, letters), finish.background, longest_mm)
-    drawing = finish.of_pens(pipeline, drawing)
+    drawing = finish.of_pens(pipeline, drawing if font is None else replace(drawing, font=font))
     pipeline.measured("pen", "mm", fit_error_mm, drawing.layers)
     return drawing

@@ -28,7 +28,7 @@ from vectorplot.pictures.fills import (
 )
 from vectorplot.pictures.fills import background as background_of
 from vectorplot.pictures.lines import PEN, LineOverlay, places_beside_faces
-from vectorplot.pictures.options import SHADOWS, check_options
+from vectorplot.pictures.options import SHADOWS, check_letters, check_options
 from vectorplot.pictures.pipeline import Pipeline, StageReport, stoppable
 from vectorplot.pictures.plan import accuracy_of_paint, has_bodies, plan_bodies, plan_paint, with_accuracy
 from vectorplot.pictures.prepared_scene import Legend, Paper, prepared_scene, room_for_labels, titled
@@ -118,6 +118,7 @@ def paint(
     title: str = "",
     frame: bool = False,
     text: Literal["strokes", "real"] = "strokes",
+    font: str | None = None,
     off_by: float | str | None = None,
     within: float | str | None = None,
     budget: float = 1.0,
@@ -181,6 +182,8 @@ def paint(
         A rectangle in the middle of the margin, which ends before the title.
     text : {"strokes", "real"}
         As in draw.
+    font : str, optional
+        As in draw.
     off_by : float or str, optional
         The error that the picture is to keep, mm, a text such as "0.01mm", or
         with the error of shades, in steps of 255, "0.01mm,4shades": tolerance_mm is chosen for it,
@@ -236,6 +239,7 @@ def paint(
     """
     told = dict(locals())
     check_options(told)
+    check_letters(font, text)
     if off_by is not None or within is not None:
         return promised(paint, PAINTING, told)
     check_word("shadows", shadows, SHADOWS["paint"])
@@ -356,4 +360,5 @@ def paint(
             layers = (replace(layers[0], marks=(*background_of(scene, page), *layers[0].marks)), *layers[1:])
     layers = titled(layers, placement, title, frame, over.border(letters), text=text)
     drawing = Drawing(page.width_mm, page.height_mm, layers, names, scene.title, world)
+    drawing = drawing if font is None else replace(drawing, font=font)
     return legend.around(drawing, scene.background)

@@ -13,6 +13,7 @@ from vectorplot.cli.options import (
     DRAWING_FORMATS,
     EXPOSURE,
     FACE_OPTIONS,
+    FONT,
     FRAME,
     LIGHTS,
     OVERLAID_OPTIONS,
@@ -54,6 +55,7 @@ if TYPE_CHECKING:
     TITLE,
     FRAME,
     TEXT,
+    FONT,
 )
 def paint(scene: Scene, **told: Any) -> Drawing:
     """Paint INPUT, a scene file (- for stdin), mesh (obj, stl, ply, off, glb, vtk, vtu), molecule (xyz, pdb, cif) or
