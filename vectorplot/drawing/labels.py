@@ -885,6 +885,43 @@ def _leaves(page: Floats, boxes: Floats) -> bool:
     return bool(((boxes < page[0]) | (boxes > page[1])).any())
 
 
+def rooms_of_labels(
+    anchors: LabelAnchors, points: Floats, filled: Floats, margin_mm: float, mm: float = 1.0
+) -> tuple[Ints, Floats, Floats]:
+    """The labels (k,) beside points, and the corners low (k,2) and high (k,2) of what they need inside the margin, for
+    letters may stand in it, counted from their points on the page. points (l,2): the images of what they name; filled
+    (2,2): the lowest and the highest corner of the picture, in the image. Where a label may stand anywhere beside its
+    point it is taken to be on the side that leads away from the middle of the picture.
+    """
+    some, low, high = [], [], []
+    middle, reach = filled.mean(axis=0), np.maximum(np.ptp(filled, axis=0), np.finfo(float).tiny)
+    order = [word for word in DIRECTIONS if word not in ("auto", "centre")]
+    ways = np.array([DIRECTIONS[word] for word in order])
+    for k, label in enumerate(anchors.labels):
+        if (
+            isinstance(label.at, (Along, OnPage, BesidePoint))
+            or not label.text.strip()
+            or not np.isfinite(points[k]).all()
+        ):
+            continue
+        size = np.ptp(typeset(label.text, size_mm=label.capitals_mm * mm).bounds, axis=0)
+        gap = _gap(label, mm)
+        way = np.array([DIRECTIONS[label.place]]) if label.place != "auto" else ways
+        outwards = matmul(way / np.maximum(np.hypot(*way.T), 1.0)[:, None], (points[k] - middle) / reach)
+        beside = _beside(way, size, gap)[int(np.argmax(outwards))]
+        # Letters keep their distance from the edge of the page.
+        inside = margin_mm * mm - gap
+        some.append(k)
+        low.append(np.minimum(beside - 0.5 * size + inside, 0.0))
+        high.append(np.maximum(beside + 0.5 * size - inside, 0.0))
+    none = np.zeros((0, 2))
+    return (
+        np.array(some, dtype=np.intp),
+        np.array([*none, *low]).reshape(-1, 2),
+        np.array([*none, *high]).reshape(-1, 2),
+    )
+
+
 def _asked(label: Label) -> str:
     if not label.text.strip():
         return "centre"

@@ -25,7 +25,7 @@ from vectorplot.scene.item import Item
 from vectorplot.scene.light import Exposure, Light
 from vectorplot.scene.page import Page
 from vectorplot.scene.pens import DepthCue, depth_cue_of
-from vectorplot.scene.placement import FittedPage, Placement, allowed_in_space, camera_of
+from vectorplot.scene.placement import FittedPage, Placement, allowed_in_space, camera_of, fitted_with_room
 from vectorplot.scene.scales import ScaleBar
 from vectorplot.scene.scene import Scene, tell_what_is_cut_off
 from vectorplot.scene.view import View, without_seams
@@ -93,9 +93,27 @@ class PreparedScene:
         return None if self.chart is None else self.chart.bar
 
     def around(self, placement: Placement, view: View, page: Page, mm: float = 1.0) -> Placement:
-        """The place of a picture that fills a page, with room for the numbers of a box, if there is one; mm: see
-        Scaled.around."""
-        return placement if self.chart is None else self.chart.around(placement, view, page, mm)
+        """The place of a picture that fills a page, with room for the numbers of a box, if there is one, else for the
+        labels that would leave the page; mm: see Scaled.around."""
+        placed = placement if self.chart is None else self.chart.around(placement, view, page, mm)
+        if placed is not placement or placement.filled is None or not len(self.anchors) or isinstance(page, FittedPage):
+            return placed
+        from vectorplot.drawing.labels import rooms_of_labels
+
+        world = np.where(np.isfinite(self.anchors.points), self.anchors.points, self.scene.bounds[0])
+        points = view.points_of(world)
+        if view.reaches_too_far(points):
+            return placed
+        image = np.where(np.isfinite(self.anchors.points).all(axis=1), view.image_of(points), np.nan)
+        some, low, high = rooms_of_labels(self.anchors, image.T, placement.filled, page.margin_mm / mm, mm)
+        on_page, edge = placement.on_page(image[:, some]), np.array(page.margin_mm)
+        right = np.array([placement.page.width_mm, placement.page.height_mm]) - edge
+        if (on_page + low >= edge - ROUNDING_MM).all() and (on_page + high <= right + ROUNDING_MM).all():
+            return placed
+        corners = np.concatenate([placement.filled.T, image[:, some]], axis=1)
+        nothing = np.zeros((2, 2))
+        rooms = (np.concatenate([nothing, one]).T for one in (low, high))
+        return fitted_with_room(view, page, corners, *rooms)
 
 
 def prepared_scene(
@@ -158,6 +176,9 @@ def _seen_part(
 
 
 # What stands around a picture on its page: a title, a frame, and a bar where colours stand for numbers.
+
+ROUNDING_MM = 1e-6
+"""Letters that leave their page by less are on it."""
 
 MOST_NAMES = 3
 """So many labels are named in a warning."""

@@ -29,13 +29,15 @@ class Placement:
     """Where a picture is on the page.
 
     projection: that which the picture has: it says what the image is; page: the sheet of paper; page_from_image: (3, 3)
-    from homogeneous points (x, y, 1) of the image to mm, y upwards; whole: all of the scene is on the page.
+    from homogeneous points (x, y, 1) of the image to mm, y upwards; whole: all of the scene is on the page; filled
+    (2,2): the lowest and the highest corner, in the image, of what fills the page, where something does.
     """
 
     projection: Projection
     page: Page
     page_from_image: Floats
     whole: bool
+    filled: Floats | None = None
 
     @property
     def scale(self) -> float:
@@ -93,8 +95,9 @@ def fitted_picture(projection: Projection, page: Page, image: Floats) -> Placeme
     inside = scale * (high - low)
     sheet = page.around(float(inside[0]), float(inside[1]))
     if not isinstance(page, PageAtScale):
-        return Placement(projection, sheet, fitted(sheet, low, high), whole=True)
-    return Placement(projection, sheet, _in_the_middle(sheet, scale, scale * low, scale * high), whole=True)
+        return Placement(projection, sheet, fitted(sheet, low, high), whole=True, filled=np.stack([low, high]))
+    matrix = _in_the_middle(sheet, scale, scale * low, scale * high)
+    return Placement(projection, sheet, matrix, whole=True, filled=np.stack([low, high]))
 
 
 def fitted_with_room(projection: Projection, page: Page, image: Floats, low_mm: Floats, high_mm: Floats) -> Placement:

@@ -6,6 +6,7 @@ import pickle
 
 import numpy as np
 import pytest
+import shapely
 
 import vectorplot as vp
 from vectorplot import io
@@ -149,3 +150,40 @@ def test_labels_of_several_scenes_name_their_own_items() -> None:
     for scene in (both, named):
         points = label_anchors(scene).points
         assert points[1] - points[0] == pytest.approx([10.0, 0.0, 0.0])
+
+
+ROOF = vp.Mesh.from_triangles(
+    [(0, 0, 0), (4, 0, 0), (0, 4, 0), (1, 1, 3)], [(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)]
+)
+
+
+def named_roof(margin: float, *names: str) -> vp.Scene:
+    labels = tuple(vp.Label(name, vp.AtVertex("roof", k)) for k, name in enumerate(names))
+    return vp.Scene((vp.Item("roof", ROOF),), labels=labels, page=vp.Page(100, 90, margin))
+
+
+@pytest.mark.parametrize("verb", [vp.draw, vp.paint])
+@pytest.mark.parametrize("page", [{}, {"width": "80mm"}, {"page": "scale 9:1"}], ids=["page", "width", "scale"])
+def test_labels_have_room_beside_the_outlines_of_a_picture_with_a_narrow_margin(verb, page) -> None:
+    scene = named_roof(1.0, "Alpha", "Bravo point", "C", "Summit")
+    drawing = verb(scene, "iso", text="real", **page)
+    (texts,) = [texts for layer in drawing.layers for texts in layer.texts]
+    world = drawing.page_from_world @ np.column_stack([ROOF.vertices, np.ones(4)]).T
+    corners = (world[:2] / world[3]).T
+    outline = shapely.MultiPoint(corners).convex_hull
+    for k in range(len(texts)):
+        left = texts.points[k, 0] - texts.anchor[k] * texts.room_mm[k]
+        box_ = shapely.box(left, texts.points[k, 1], left + texts.room_mm[k], texts.points[k, 1] + texts.size_mm[k])
+        assert not box_.intersects(outline), texts.strings[k]
+        assert shapely.box(0, 0, drawing.width_mm, drawing.height_mm).contains(box_), texts.strings[k]
+    low, high = corners.min(axis=0), corners.max(axis=0)
+    assert (low >= 1.0 - 1e-9).all() and (high <= np.array([drawing.width_mm, drawing.height_mm]) - 1.0 + 1e-9).all()
+
+
+def test_a_picture_whose_labels_have_room_stays_as_large_as_without_them() -> None:
+    wide, bare = (vp.draw(named_roof(15.0, *names), "iso") for names in (("A", "B", "C", "D"), ()))
+    np.testing.assert_array_equal(wide.page_from_world, bare.page_from_world)
+    narrow = vp.draw(named_roof(1.0, "A", "B", "C", "D"), "iso")
+    assert np.linalg.norm(narrow.page_from_world[0, :3]) < np.linalg.norm(
+        vp.draw(named_roof(1.0), "iso").page_from_world[0, :3]
+    )
