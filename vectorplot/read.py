@@ -9,7 +9,9 @@ from typing import Any
 from vectorplot.scene.scene import Scene
 
 
-def read(path: str | os.PathLike[str], *, exaggeration: float | None = None) -> Scene | Any:
+def read(
+    path: str | os.PathLike[str], *, exaggeration: float | None = None, molecules: str | None = None
+) -> Scene | Any:
     """The scene in a file, or the drawing that `save` wrote into one.
 
     Parameters
@@ -20,6 +22,8 @@ def read(path: str | os.PathLike[str], *, exaggeration: float | None = None) -> 
     exaggeration : float, optional
         What heights of a terrain are multiplied with. Where None they are left as they are, unless they would be seen
         as a plain or a needle: then they are made 1, 2 or 5 times a power of ten higher, and a warning says so.
+    molecules : str, optional
+        How a molecule is shown: ball-and-stick (where None), space-filling, tube or ribbon; see `io.molecule_scene`.
 
     Returns
     -------
@@ -29,7 +33,8 @@ def read(path: str | os.PathLike[str], *, exaggeration: float | None = None) -> 
     Raises
     ------
     InputError
-        One line with the file, the line where there is one, and the cause; for an exaggeration of what is no terrain.
+        One line with the file, the line where there is one, and the cause; for an exaggeration of what is no terrain,
+        and for a style of molecules of what is none.
     OSError
         For a drawing that cannot be opened.
 
@@ -47,10 +52,10 @@ def read(path: str | os.PathLike[str], *, exaggeration: float | None = None) -> 
     ...     vp.read(path)
     <Scene 'Box': 1 items, 0 lights>
     """
-    if Path(path).suffix.lower() == ".json" and exaggeration is None:
+    if Path(path).suffix.lower() == ".json" and exaggeration is None and molecules is None:
         from vectorplot.backends.json import read_drawing
 
         return read_drawing(path)
     from vectorplot.io.read_file import read as read_file
 
-    return read_file(path, exaggeration=exaggeration)
+    return read_file(path, exaggeration=exaggeration, molecules=molecules)

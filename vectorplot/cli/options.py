@@ -730,6 +730,12 @@ EXAGGERATION = click.option(
     help="Times that heights of a terrain file are as high.  [default: 1 where they are to be seen]",
 )
 
+MOLECULES = click.option(
+    "--molecules",
+    type=click.Choice(["ball-and-stick", "space-filling", "tube", "ribbon"]),
+    help="How molecules are shown.  [default: ball-and-stick]",
+)
+
 OUT = click.option("-o", "--out", required=True, type=click.Path(), metavar="OUT", help="File to write; - for stdout.")
 
 OUT_OR_FOLDER = click.option(
@@ -741,7 +747,18 @@ OUT_OR_FOLDER = click.option(
     help="File to write; - for stdout; FOLDER/ for a picture of each INPUT.",
 )
 
-_OF_THE_FILE = ("scene_file", "out", "format_", "exaggeration", "quiet", "explain", "strict", "certificate", "tiles")
+_OF_THE_FILE = (
+    "scene_file",
+    "out",
+    "format_",
+    "exaggeration",
+    "molecules",
+    "quiet",
+    "explain",
+    "strict",
+    "certificate",
+    "tiles",
+)
 """Parameters that say what is read and written, and what is said of it."""
 
 
@@ -921,7 +938,7 @@ def picture_verb(
                 warn_of_nothing(source, made, lambda: _why_nothing(verb.__name__, lined, keywords))
                 return made
 
-            source = Source(params["scene_file"], params["exaggeration"], upright=told.camera.says_where())
+            source = Source(params["scene_file"], params["exaggeration"], told.camera.says_where(), params["molecules"])
             said = {"source": source, "format_": written, "picture": picture, "jobs": jobs, "overlaid": overlaid}
             beside = [] if params.get("certificate") is None else [_proof(params, told, source)]
             beside += [] if params.get("tiles") is None else _tiles(params, written)
@@ -942,6 +959,7 @@ def picture_verb(
             OUT_OR_FOLDER,
             format_option(formats),
             EXAGGERATION,
+            MOLECULES,
             *CAMERA_OPTIONS,
             *options,
             *LINE_OPTIONS,

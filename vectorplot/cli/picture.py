@@ -186,12 +186,14 @@ def kept_promise(
 
 @dataclass(frozen=True)
 class Source:
-    """The files that a picture is made of; exaggeration: of the heights of a terrain, None for the usual one; upright:
+    """The files that a picture is made of; exaggeration: of the heights of a terrain, molecules: their
+    style, None for the usual ones; upright:
     the user has said where one looks from, or what is up."""
 
     paths: tuple[str, ...]
     exaggeration: float | None = None
     upright: bool = False
+    molecules: str | None = None
 
     @property
     def name(self) -> str:
@@ -204,7 +206,7 @@ class Source:
         from vectorplot.io.read_file import read_named
         from vectorplot.scene.scene import together
 
-        scenes = [read_named(path, exaggeration=self.exaggeration) for path in self.paths]
+        scenes = [read_named(path, exaggeration=self.exaggeration, molecules=self.molecules) for path in self.paths]
         for path, scene in zip(self.paths, scenes, strict=True):
             told = None if self.upright else up_axis_hint(path, scene)
             if told is not None:

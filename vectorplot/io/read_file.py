@@ -97,25 +97,29 @@ TERRAIN_SUFFIXES = (".asc",)
 SCENE_SUFFIXES = (".scene", ".txt")
 
 
-def read(path: str | os.PathLike[str], *, exaggeration: float | None = None) -> Scene:
+def read(path: str | os.PathLike[str], *, exaggeration: float | None = None, molecules: str | None = None) -> Scene:
     """The scene in a file: a mesh (one of MESH_SUFFIXES), a molecule (xyz, pdb, cif), a terrain (asc, xyz), or the
     scene language (any other suffix). exaggeration: factor of a terrain's heights; where None, extreme heights are
-    scaled by 1, 2 or 5 times a power of ten, with an InputWarning. A mesh file gives one item, or one for each
+    scaled by 1, 2 or 5 times a power of ten, with an InputWarning. molecules: see
+    molecule_scene. A mesh file gives one item, or one for each
     object or node. Meshes are repaired (see mesh_repair.repaired), reported in one InputWarning a file.
     Errors: InputError, one line with file, line and cause; a file of another kind is named as such.
     """
     path = Path(path)
     check_file(path)
+    is_molecule = path.suffix.lower() in MOLECULE_SUFFIXES and not _is_terrain(path)
+    if molecules is not None and not is_molecule:
+        raise InputError("a style of molecules is for molecules only (xyz, pdb, cif)", file=shown(path))
     if _is_terrain(path):
         from vectorplot.io.terrain_files import scene_of_heights
 
         return scene_of_heights(path, exaggeration)
     if exaggeration is not None:
         raise InputError("heights are exaggerated of terrains only (asc, xyz)", file=shown(path))
-    if path.suffix.lower() in MOLECULE_SUFFIXES:
-        from vectorplot.io.molecules import molecule_scene, read_molecule
+    if is_molecule:
+        from vectorplot.io.molecules import STYLES, molecule_scene, read_molecule
 
-        return molecule_scene(read_molecule(path))
+        return molecule_scene(read_molecule(path), STYLES[0] if molecules is None else molecules)
     if path.suffix.lower() in MESH_SUFFIXES:
         return mesh_scene(path)
     _check_text(path)
@@ -161,7 +165,7 @@ _NAME = "standard input"
 """What messages call it."""
 
 
-def read_named(name: str, *, exaggeration: float | None = None) -> Scene:
+def read_named(name: str, *, exaggeration: float | None = None, molecules: str | None = None) -> Scene:
     """The scene in the file of a name, as io.read_file.read has it, found as io.named_files.data_file has it; of the
     name ``-`` the one in the scene language on standard input, in which names of files are relative to the folder that
     one is in.
@@ -169,11 +173,13 @@ def read_named(name: str, *, exaggeration: float | None = None) -> Scene:
     Errors: InputError as in read; for a text that is empty, larger than 64 MiB, not UTF-8 or something else.
     """
     if name != STANDARD_INPUT:
-        return read(data_file_or_name(name), exaggeration=exaggeration)
+        return read(data_file_or_name(name), exaggeration=exaggeration, molecules=molecules)
     from vectorplot.io.scene_language import MAX_FILE_BYTES, parse_scene
 
     if exaggeration is not None:
         raise InputError("heights are exaggerated of terrains only (asc, xyz)", file=_NAME)
+    if molecules is not None:
+        raise InputError("a style of molecules is for molecules only (xyz, pdb, cif)", file=_NAME)
     if sys.stdin is None:
         raise InputError("it is closed", file=_NAME)
     data = sys.stdin.buffer.read(MAX_FILE_BYTES + 1)
