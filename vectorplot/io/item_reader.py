@@ -38,6 +38,7 @@ from vectorplot.io.scene_words import (
 )
 from vectorplot.io.surface_line_words import (
     CurveDraft,
+    read_contours,
     read_detail,
     read_integral_lines,
     read_isophote_edges,
@@ -153,6 +154,7 @@ def _integral_lines(reader: ItemCursor, draft: Draft) -> None:
 SURFACE_LINE_WORDS: dict[str, Callable[[ItemCursor, Draft], None]] = {
     "parameter_lines": _curves(read_parameter_lines),
     "isophotes": _curves(read_isophotes),
+    "contours": _curves(read_contours),
     "sections": _curves(read_sections),
     "level_lines": _curves(read_level_lines),
     "slices": _curves(read_slices),

@@ -105,6 +105,9 @@ def lines_text(curves: SurfaceLines, lights: Sequence[Light]) -> str:
 
         words += [integral_text(lines) for lines in curves.integral]
     words += [_terrain_text(asked) for asked in curves.terrain]
+    for one in curves.contours:
+        said = str(one.values) if isinstance(one.values, int) else f"at {_list(one.values)}"
+        words.append(f"contours {dumps(one.name)} {said}")
     words += ["smooth_contours"] * curves.smooth_contours
     words += ["smooth_lines"] * curves.smooth + ["isophote_edges"] * curves.along_edges
     words += [f"detail {_numbers((curves.detail,))}"] * (curves.detail != 1.0)

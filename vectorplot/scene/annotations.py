@@ -16,7 +16,7 @@ from vectorplot.errors import InputError
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.vectors import cross, norm, normalize
+from vectorplot.geometry.vectors import component_sum, cross, norm, normalize
 from vectorplot.scene.item import Item
 from vectorplot.scene.labels import (
     DEFAULT_SIZE_MM,
@@ -29,6 +29,7 @@ from vectorplot.scene.labels import (
     capital_height,
 )
 from vectorplot.scene.scene import Scene
+from vectorplot.tolerances import ROUNDING
 
 # Arrows and axes: curves in space, hidden like any others, and labels at them.
 
@@ -78,6 +79,74 @@ def arrow(
     """
     item = thin_line(name or f"arrow {text}".strip(), Line.through(start, end))
     return Scene((item,), labels=(Label(text, OnCurve(item.name), item.name, size_mm, mark="arrow"),))
+
+
+MOST_ARROWS = 5000
+"""Of one field."""
+
+
+def field_arrows(item: Item, name: str, *, apart: float | None = None, longest: float | None = None) -> Scene:
+    """Arrows along the vectors of a field, at vertices of a mesh.
+
+    Parameters
+    ----------
+    item : Item
+        With a mesh and the field.
+    name : str
+        Of a field of vectors, with the parts name.x, name.y and name.z.
+    apart : float, optional
+        One arrow for each cube with such an edge, at its vertex that comes first; a sixteenth of the extent of the mesh
+        where None.
+    longest : float, optional
+        The length of the longest one in world units, the others in proportion; as long as they are apart where None.
+
+    Returns
+    -------
+    Scene
+        Thin lines with arrowheads, to be drawn together with the item.
+
+    Raises
+    ------
+    InputError
+        For a field that the item has not, lengths that are not positive, and more than 5000 arrows.
+
+    Notes
+    -----
+    Edge cases: no arrow where the field has no vector or one without length.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import vectorplot as vp
+    >>> from vectorplot.scene import Fields, field_arrows
+    >>> square = vp.Mesh.from_polygons([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], [(0, 1, 2, 3)])
+    >>> wind = Fields.of(square, {"wind": np.array([(0, 0, 1.0), (0, 0, 2.0), (0, 0, 0), (0, 0, 1.0)])}, {})
+    >>> len(field_arrows(vp.Item("square", square, fields=wind), "wind"))
+    3
+    """
+    if item.fields is None:
+        raise InputError(f"{item.name}: there is no field {name!r}: the item has none")
+    points = item.mesh.vertices
+    extent = float(np.ptp(points, axis=0).max()) if len(points) else 0.0
+    step = extent / 16.0 if apart is None else apart
+    long = step if longest is None else longest
+    if not (0.0 < step < np.inf and 0.0 < long < np.inf):
+        raise InputError(f"arrows of {name}: expected positive lengths, got {step:g} apart and {long:g} long")
+    vectors = item.fields.vectors(name)(points)
+    sizes = np.sqrt(component_sum(vectors * vectors))
+    there = np.flatnonzero(np.isfinite(sizes) & (sizes > 0.0))
+    cells = np.floor((points[there] - points.min(axis=0, initial=np.inf)) / step + ROUNDING)
+    _, first = np.unique(cells, axis=0, return_index=True)
+    if len(first) > MOST_ARROWS:
+        raise InputError(f"arrows of {name}: {len(first)} of them, expected {MOST_ARROWS} or fewer: larger 'apart'")
+    some = there[np.sort(first)]
+    ways = vectors[some] * (long / float(sizes[some].max())) if len(some) else vectors[some]
+    items, labels = [], []
+    for number, (start, way) in enumerate(zip(points[some], ways, strict=True), start=1):
+        line = thin_line(f"{item.name} {name} {number}", Line.through(start, start + way), f"{item.name} {name}")
+        items.append(line)
+        labels.append(Label("", OnCurve(line.name), line.name, mark="arrow"))
+    return Scene(tuple(items), labels=tuple(labels))
 
 
 def axes(

@@ -15,7 +15,7 @@ from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.mesh_cuts import nothing_beside
 from vectorplot.geometry.triangles import PlacedTriangles
 from vectorplot.scene.labels import DEFAULT_SIZE_MM, capital_height
-from vectorplot.words import check_colour
+from vectorplot.words import check_colour, unknown
 
 # What a picture shows besides its scene to be read as a chart: colours that are numbers, a box with ticks.
 
@@ -285,6 +285,17 @@ class Fields:
             # A corner without a number that weighs nothing does not matter.
             result[left[place]] = np.where(weights > 0.0, weights * values[corners], 0.0).sum(axis=1)
         return result
+
+    def vectors(self, name: str) -> Callable[[Floats], Floats]:
+        """What gives vectors (n,3) at points (n,3) of the mesh: NAME.x, NAME.y, NAME.z, NaN where there are none.
+
+        Errors: InputError for a name that has not these parts.
+        """
+        parts = [f"{name}.{axis}" for axis in AXES]
+        if not all(part in self.names for part in parts):
+            known = [one.removesuffix(".x") for one in self.names if one.endswith(".x")]
+            raise unknown("field of vectors", name, known)
+        return lambda points: np.stack([self.at(part, points) for part in parts], axis=1)
 
     def transformed(self, matrix: ArrayLike) -> Fields:
         """The fields on the mesh under a 4x4 matrix acting on columns: the same numbers."""
