@@ -15,15 +15,32 @@ from .pictures.film import Film, animate
 from .pictures.paint import paint
 from .pictures.panorama import panorama
 from .pictures.render import render
+from .pictures.sheet_annotations import part_scenes
 from .pictures.technical_sheet import technical_sheet, turntable
 from .read import read
 from .save import save, save_for_latex
 from .save_frames import save_frames
-from .scene.annotations import angle, arrow, axes, centre_line, centre_mark, diameter, dimension, leader, radius
+from .scene.annotations import (
+    angle,
+    arrow,
+    axes,
+    baseline_dimension,
+    centre_line,
+    centre_mark,
+    chain_dimension,
+    chamfer,
+    diameter,
+    dimension,
+    leader,
+    ordinate_dimension,
+    radius,
+    thread,
+    threaded_hole,
+)
 from .scene.exploded import exploded
 from .scene.hatching import Hatching, Stippling
 from .scene.item import Item, Pattern
-from .scene.labels import Along, AtVertex, Label, OnCurve, OnPage
+from .scene.labels import Along, AtVertex, Label, Measures, OnCurve, OnPage
 from .scene.light import Light
 from .scene.material import Material
 from .scene.page import Page
@@ -53,6 +70,7 @@ __all__ = [
     "Light",
     "LineKind",
     "Material",
+    "Measures",
     "Mesh",
     "OnCurve",
     "OnPage",
@@ -73,8 +91,11 @@ __all__ = [
     "animate",
     "arrow",
     "axes",
+    "baseline_dimension",
     "centre_line",
     "centre_mark",
+    "chain_dimension",
+    "chamfer",
     "contact_sheet",
     "cut",
     "diameter",
@@ -83,9 +104,11 @@ __all__ = [
     "exploded",
     "graph",
     "leader",
+    "ordinate_dimension",
     "paint",
     "panels",
     "panorama",
+    "part_scenes",
     "radius",
     "read",
     "read_animation",
@@ -96,6 +119,8 @@ __all__ = [
     "show",
     "surface",
     "technical_sheet",
+    "thread",
+    "threaded_hole",
     "tube",
     "turntable",
     "zero_manifold_of_f_uv",

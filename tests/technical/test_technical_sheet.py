@@ -14,7 +14,7 @@ from vectorplot.cli.main import run
 from vectorplot.cli.verbs import vectorplot
 from vectorplot.geometry import box, prism, regular_polygon
 from vectorplot.io.scene_language import parse_scene
-from vectorplot.pictures.technical_sheet import round_edges
+from vectorplot.pictures.sheet_annotations import round_edges
 from vectorplot.testing import assert_drawings_equal
 
 BRICK = vp.Item("brick", box((40, 20, 10)))

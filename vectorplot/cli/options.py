@@ -82,8 +82,15 @@ def cut_text(text: str) -> str:
     return text
 
 
-def _explosion(text: str) -> tuple[Point] | tuple[Point, float]:
-    """AXIS or AXIS,FACTOR; an axis is x, y, z, or X,Y,Z."""
+Apart = tuple["Point"] | tuple["Point", float] | tuple[str, "Point"]
+"""How parts are moved apart: along an axis, with a factor; or a part by its name, and how far."""
+
+
+def _explosion(text: str) -> Apart:
+    """AXIS or AXIS,FACTOR; an axis is x, y, z, or X,Y,Z. Or NAME=X,Y,Z."""
+    if "=" in text:
+        name, _, step = text.rpartition("=")
+        return name.strip(), point(step)
     if text.count(",") in (0, 2):
         return (direction(text),)
     axis, _, factor = text.rpartition(",")
@@ -98,6 +105,15 @@ CUT_SPACING = click.option(
     type=at_least(0.1),
     metavar="MM",
     help="From stroke to stroke of hatches of cut faces, on the page.  [default: 2.4, on narrow faces 1.2]",
+)
+
+EXPLODE = click.option(
+    "--explode",
+    type=_explosion,
+    multiple=True,
+    metavar="AXIS[,FACTOR]",
+    show_default=False,
+    help="Parts moved apart along x, y, z or X,Y,Z; z,1.5 is z. Or a part, NAME=X,Y,Z; repeat it for more.",
 )
 
 CUT_OPTIONS = (
@@ -118,13 +134,23 @@ CUT_OPTIONS = (
     click.option("--cut-colour", metavar="COLOUR", help="Of cut faces.  [default: that of their bodies]"),
     CUT_SPACING,
     click.option("--cut-angle", type=number, default=45.0, metavar="DEG", help="Of these strokes, from what is level."),
-    click.option(
-        "--explode",
-        type=_explosion,
-        metavar="AXIS[,FACTOR]",
-        help="Parts moved apart along x, y, z or X,Y,Z; z,1.5 is z.",
-    ),
+    EXPLODE,
 )
+
+
+def moved_apart(scene: Scene, asked: Sequence[Apart]) -> Scene:
+    """The scene with its parts moved apart as asked for, else as it says itself. Bad usage for an axis among moves."""
+    from vectorplot.scene.exploded import exploded, shown_apart
+
+    if not asked:
+        return shown_apart(scene)
+    moves = {one[0]: one[1] for one in asked if len(one) == 2 and isinstance(one[0], str)}
+    if moves and len(moves) == len(asked):
+        return exploded(scene, moves)
+    if len(asked) > 1:
+        raise click.UsageError("--explode: expected one axis, or NAME=X,Y,Z of several parts, each once")
+    (one,) = asked
+    return exploded(scene, one[0], *(float(x) for x in one[1:] if not isinstance(x, tuple)))
 
 
 @dataclass(frozen=True)
@@ -136,7 +162,7 @@ class CutOptions:
     cut_colour: str | None = None
     cut_spacing: float | None = None
     cut_angle: float = 45.0
-    explode: tuple[Point] | tuple[Point, float] | None = None
+    explode: tuple[Apart, ...] = ()
 
     @classmethod
     def of(cls, options: Mapping[str, Any]) -> CutOptions:
@@ -146,13 +172,47 @@ class CutOptions:
     def of_scene(self, scene: Scene) -> Scene:
         """The scene with these cuts. Errors: InputError for unknown colours."""
         from vectorplot.scene.cuts import Cut
-        from vectorplot.scene.exploded import exploded, shown_apart
 
-        scene = shown_apart(scene) if self.explode is None else exploded(scene, *self.explode)
+        scene = moved_apart(scene, self.explode)
         spelled = partial(Cut.of, away=self.cut_away, colour=self.cut_colour)
         hatched = partial(spelled, spacing_mm=self.cut_spacing, angle_deg=self.cut_angle)
         cuts = tuple(hatched(text) for text in self.cut)
         return replace(scene, cuts=scene.cuts + cuts) if cuts else scene
+
+
+# Options of dimensions: how measures are written.
+
+MEASURE_OPTIONS = (
+    click.option(
+        "--decimals",
+        type=click.IntRange(0, 9),
+        metavar="N",
+        help="Of the measures of dimensions.  [default: as many as six digits need]",
+    ),
+    click.option("--zeros/--no-zeros", default=None, help="Zeros at the end of their decimals, as 12.50."),
+    click.option("--comma/--point", default=None, help="What stands before their decimals.  [default: a point]"),
+)
+
+
+@dataclass(frozen=True)
+class MeasureOptions:
+    """How the user wants measures written; None where nothing was said."""
+
+    decimals: int | None = None
+    zeros: bool | None = None
+    comma: bool | None = None
+
+    @classmethod
+    def of(cls, options: Mapping[str, Any]) -> MeasureOptions:
+        """What a command with MEASURE_OPTIONS was told."""
+        return cls(**{field.name: options[field.name] for field in fields(cls)})
+
+    def of_scene(self, scene: Scene) -> Scene:
+        """The scene with measures like that, as far as anything was said."""
+        from vectorplot.scene.labels import Measures
+
+        said = {name: value for name, value in vars(self).items() if value is not None}
+        return replace(scene, measures=replace(scene.measures or Measures(), **said)) if said else scene
 
 
 # Options for all that is shown: plane sections, level lines, isophotes, colours, materials.
@@ -794,7 +854,7 @@ def shadows_option(verb: str, meaning: str) -> Option:
 @dataclass(frozen=True)
 class Told:
     """What the user told a verb: camera, page (None: pictures of pixels have none), lines on all that is shown, cuts
-    through it, and all else.
+    through it, how measures are written, and all else.
 
     rest: values by the keywords of the function of the package that has the verb's name.
     """
@@ -803,18 +863,20 @@ class Told:
     page: PageOptions | None
     added: LineOptions
     cuts: CutOptions
+    measures: MeasureOptions
     rest: Mapping[str, Any]
 
     @classmethod
     def of(cls, options: Mapping[str, Any]) -> Told:
         """What the options of a command say. Bad usage for options that contradict each other."""
-        groups = (CameraOptions, PageOptions, LineOptions, CutOptions, WorkerOptions)
+        groups = (CameraOptions, PageOptions, LineOptions, CutOptions, MeasureOptions, WorkerOptions)
         taken = {field.name for group in groups for field in fields(group)}
         return cls(
             CameraOptions.of(options),
             PageOptions.of(options) if "page" in options else None,
             LineOptions.of(options),
             CutOptions.of(options),
+            MeasureOptions.of(options) if "decimals" in options else MeasureOptions(),
             {name: value for name, value in options.items() if name not in taken},
         )
 
@@ -827,7 +889,7 @@ class Told:
     def with_lines(self, scene: Scene) -> tuple[Scene, dict[str, Any]]:
         """A scene with the lines and the cuts that the user asked for, and the keywords of the verb's function, which
         draws them."""
-        cut = self.cuts.of_scene(self.added.with_materials(scene))
+        cut = self.measures.of_scene(self.cuts.of_scene(self.added.with_materials(scene)))
         keywords = self.keywords(cut)
         lined, kinds = self.added.in_scene(cut)
         if keywords.get("lines") is not None:
@@ -964,6 +1026,7 @@ def picture_verb(
             *options,
             *LINE_OPTIONS,
             *CUT_OPTIONS,
+            *MEASURE_OPTIONS,
             *PROMISES,
             BUDGET,
             JOBS,

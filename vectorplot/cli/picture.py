@@ -215,6 +215,18 @@ class Source:
 
 
 @dataclass(frozen=True)
+class ReadSource(Source):
+    """Files of which a scene was read already, or a part of it."""
+
+    scene: Scene | None = None
+
+    def read(self) -> Scene:
+        """That scene."""
+        assert self.scene is not None
+        return self.scene
+
+
+@dataclass(frozen=True)
 class Companion:
     """A file beside a picture, such as what proves it: what it is, its name, and what makes its content from the scene
     and the picture."""

@@ -568,10 +568,12 @@ def _united(layers: _Layers, fills: Fills, depth: Ints | None = None) -> _Layers
 
 
 def _listed(layers: _Layers, fills: Fills, page_from_world: Floats) -> Overlay:
-    """Regions as polygons without holes; shaded ones that are not as they were as triangles."""
+    """Regions as polygons without holes; shaded ones that are not convex as triangles."""
+    import shapely
+
     parts, of = without_splinters(layers.region, GRID_MM)
     parts, of = without_holes(parts, of)
-    parts, of = _convex_if_shaded(parts, of, layers, fills)
+    parts, of = _convex_if_shaded(shapely.simplify(parts, GRID_MM), of, layers, fills)
     flat, offsets = corners_of(parts)
     sizes = np.diff(offsets)
     source, owner = layers.source[of], np.repeat(of, sizes)
@@ -590,12 +592,13 @@ def _listed(layers: _Layers, fills: Fills, page_from_world: Floats) -> Overlay:
 
 
 def _convex_if_shaded(parts: Any, of: Ints, layers: _Layers, fills: Fills) -> tuple[Any, Ints]:
-    """Triangles in place of shaded polygons that are not convex."""
+    """Hulls in place of shaded polygons that are convex but for the grid, triangles in place of others."""
     import shapely
 
     shaded = _shaded(fills)[layers.source[of]]
-    hull = shapely.area(shapely.convex_hull(parts)) - shapely.area(parts)
-    bent = shaded & (hull > GRID_MM * shapely.length(parts))
+    hull = shapely.convex_hull(parts)
+    bent = shaded & (shapely.area(hull) - shapely.area(parts) > GRID_MM * shapely.length(parts))
+    parts = np.where(shaded & ~bent, hull, parts)
     if not bent.any():
         return parts, of
     triangles, owner = triangles_of(parts[bent])

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from itertools import takewhile
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 
@@ -389,7 +389,24 @@ def _stroked_along(text: str, *where: Any, **how: Any) -> Lettering:
     return lettered_along(without_formulas_in_strokes(text), *where, **how)
 
 
-LETTERS = {"strokes": Letters(_stroked, _stroked_along), "real": Letters(typeset, typeset_along)}
+def _typeset_along(
+    text: str, path: Floats, *, size_mm: float, level: Literal["base", "middle", "top"], at: float, off_mm: float
+) -> Lettering:
+    """Letters of a font along a course: one text where it is straight, as readers find it."""
+    way = path[-1] - path[0]
+    long = float(np.hypot(*way))
+    away = path - path[0]
+    if not long > 0.0 or np.abs(away[:, 0] * way[1] - away[:, 1] * way[0]).max() > COINCIDENT_MM * long:
+        return typeset_along(text, path, size_mm=size_mm, level=level, at=at, off_mm=off_mm)
+    x, y = (way / long).tolist()
+    if reads_backwards(x, y):
+        x, y = -x, -y
+    middle = path[0] + at * way + off_mm * np.array([-y, x])
+    turn = float(np.degrees(arctan2(y, x)))
+    return typeset(text, tuple(middle.tolist()), size_mm=size_mm, align="centre", level=level, rotation_deg=turn)
+
+
+LETTERS = {"strokes": Letters(_stroked, _stroked_along), "real": Letters(typeset, _typeset_along)}
 """What letters are: strokes of a pen, or those of the fonts of whatever reads the file."""
 
 
@@ -571,10 +588,18 @@ TAIL = 2.0
 
 @dataclass(frozen=True, eq=False)
 class Measure:
-    """A text of a dimension, and the strokes (n,2,2) on which its line goes on under it."""
+    """A text of a dimension, and the strokes (n,2,2) on which its line goes on under it; under (2,): from the text to
+    these."""
 
     text: Lettering
     tails: Floats
+    under: Floats = field(default_factory=lambda: np.zeros(2))
+
+    @property
+    def room(self) -> Floats:
+        """(b,4,2) what it takes, with its line."""
+        boxes = self.text.boxes
+        return np.concatenate([boxes, boxes + self.under]) if self.under.any() else boxes
 
 
 def arrowheads(seen: SeenLabels) -> dict[str, tuple[float, ...]]:
@@ -612,7 +637,11 @@ def measures_tried(
     """
     whole = float(np.hypot(*np.diff(path, axis=0).T).sum())
     none = np.zeros((0, 2, 2))
-    found = [Measure(usual, none), Measure(set_at("below", 0.5), none)]
+    found = [Measure(usual, none)]
+    wide = float(np.ptp(matmul(usual.boxes.reshape(-1, 2), _way(path))))
+    if whole > ASIDE * wide:
+        found += [Measure(set_at("above", part), none) for part in (0.3, 0.7)]
+    found.append(Measure(set_at("below", 0.5), none))
     begins = TAIL * ARROW_MM * mm if heads_outside(whole, heads, mm) else 0.0
     backwards = reads_backwards(*(path[-1] - path[0]).tolist())
     for at in sorted(set(heads), reverse=not backwards):
@@ -624,20 +653,53 @@ def measures_tried(
         wide = float(np.ptp(matmul(usual.boxes.reshape(-1, 2), way)))
         beyond = (begins + gap + 0.5 * wide) / whole
         text = set_at("above", -beyond if at == 0.0 else 1.0 + beyond)
-        found.append(Measure(text, end + np.array([[[begins], [begins + gap + wide]]]) * way))
-    return found
+        line = end + np.array([[[begins], [begins + gap + wide]]]) * way
+        up = np.array([-way[1], way[0]])
+        side = float(np.sign(matmul(text.boxes.reshape(-1, 2).mean(axis=0) - end, up))) if len(text.boxes) else 0.0
+        found.append(Measure(text, line, -(2.0 * gap * side) * up))
+    return [*found, *_raised(path, usual, gap, mm)]
+
+
+def _way(path: Floats) -> Floats:
+    """(2,) the direction from the beginning to the end of a polyline, of length 1; zeros for one that closes."""
+    way = path[-1] - path[0]
+    long = float(np.hypot(*way))
+    return np.asarray(way / long if long > 0.0 else np.zeros(2))
+
+
+def _raised(path: Floats, usual: Lettering, gap: float, mm: float) -> list[Measure]:
+    """A text one and two rows farther from its line, at the end of a line from its middle."""
+    middle = 0.5 * (path[0] + path[-1])
+    box = usual.boxes.reshape(-1, 2)
+    if not len(box):
+        return []
+    off = box.mean(axis=0) - middle
+    way = _way(path)
+    off = off - float(matmul(off, way)) * way
+    long = float(np.hypot(*off))
+    if not long > 0.0:
+        return []
+    out = off / long
+    high = float(np.ptp(matmul(box, out)))
+    rows = [(high + 2.0 * gap) * k for k in (1, 2)]
+    return [Measure(usual.moved(row * out), np.array([[middle, middle + (row + 0.5 * gap) * out]])) for row in rows]
+
+
+ASIDE = 2.2
+"""A text may stand aside from the middle of a line that is so many times as long."""
 
 
 def with_room(
     tried: Mapping[int, Sequence[Measure]], strokes: Paths, page: Floats, margin: float
 ) -> dict[int, Measure]:
-    """Of each label the text on the page (2,2) that interrupts least of the strokes, of several the first one.
+    """Of each label the text on the page (2,2) that is over no other of them and interrupts least of the strokes, of
+    several the first one.
 
     margin: what keeps letters and strokes apart; the thin lines of other annotations, such as extension lines, may end
     at the letters without one.
     """
     every = [(label, measure) for label, some in tried.items() for measure in some]
-    boxes = [measure.text.boxes for _, measure in every]
+    boxes = [measure.room for _, measure in every]
     owner = np.repeat(np.arange(len(every)), [len(own) for own in boxes])
     corners = np.concatenate([np.zeros((0, 4, 2)), *boxes])
     thin = strokes.kind == int(LineKind.LABEL)
@@ -653,7 +715,27 @@ def with_room(
     cost: dict[int, list[tuple[bool, float, int]]] = {}
     for number, (label, _) in enumerate(every):
         cost.setdefault(label, []).append((leaves[number], float(long[number]), number))
-    return {label: every[min(some)[2]][1] for label, some in cost.items()}
+    chosen_ones: dict[int, Measure] = {}
+    taken = np.zeros((0, 2, 2))
+    for label, some in cost.items():
+        bounds = [_bounds(every[k][1].text.boxes, margin) for _, _, k in some]
+        over = [_overlap_count(own, taken) for own in bounds]
+        best = min(range(len(some)), key=lambda k: (some[k][0], over[k], *some[k][1:]))
+        chosen_ones[label] = every[some[best][2]][1]
+        taken = np.concatenate([taken, bounds[best][None]])
+    return chosen_ones
+
+
+def _bounds(boxes: Floats, margin: float) -> Floats:
+    """(2,2) the bounds of rectangles (b,4,2), wider by a margin."""
+    if not len(boxes):
+        return np.zeros((2, 2))
+    return np.stack([boxes.min(axis=(0, 1)) - margin, boxes.max(axis=(0, 1)) + margin])
+
+
+def _overlap_count(box: Floats, others: Floats) -> int:
+    """How many of some rectangles (b,2,2) one (2,2) overlaps."""
+    return int(((box[0] < others[:, 1]) & (box[1] > others[:, 0])).all(axis=1).sum())
 
 
 def measures_on_page(
@@ -798,7 +880,8 @@ def labels_on_page(
     some = labels_with_room(seen, some, mm)
     labels = [seen.anchors.labels[k] for k in some]
     paths = {k: course_on_page(seen, k, placement) for k in some if isinstance(seen.anchors.labels[k].at, Along)}
-    along = [k for k, path in paths.items() if length_of(path) > seen.anchors.labels[k].capitals_mm * mm]
+    heads = arrowheads(seen)
+    along = [k for k, path in paths.items() if _has_room(seen.anchors.labels[k], path, heads, mm)]
     set_: dict[int, Lettering] = {k: set_along(letters, seen, k, paths[k], mm) for k in along}
     beside = [k for k in some if k not in set_]
     gap = np.array([_gap(seen.anchors.labels[k], mm) for k in beside])
@@ -807,7 +890,6 @@ def labels_on_page(
     shown = strokes if hidden != "none" else chosen(strokes, strokes.hidden_by == 0)
     begin, end = shown.points[segments(shown)].transpose(1, 0, 2)
     page = np.array([[0.0, 0.0], [placement.page.width_mm, placement.page.height_mm]])
-    heads = arrowheads(seen)
     measures = measures_on_page(letters, seen, {k: paths[k] for k in along}, set_, heads, shown, page, mm)
     set_ |= {k: measure.text for k, measure in measures.items()}
     sizes = np.array([np.ptp(text.bounds, axis=0) for text in texts]).reshape(-1, 2)
@@ -841,6 +923,13 @@ def labels_on_page(
     written = Texts.joined([set_[k].texts.hidden(count) for k, count in zip(some, by, strict=True)])
     off_page = tuple(label.name for k, label in zip(some, labels, strict=True) if _leaves(page, set_[k].boxes))
     return SceneLabels(shown, hidden_, written, boxes, faint_boxes, off_page)
+
+
+def _has_room(label: Label, path: Floats, heads: Mapping[str, tuple[float, ...]], mm: float) -> bool:
+    """Whether letters stand along a course (n,2): one longer than they are high, or a dimension line."""
+    assert isinstance(label.at, Along)
+    long = length_of(path)
+    return long > label.capitals_mm * mm or (long > 0.0 and label.place == "above" and label.at.item in heads)
 
 
 def _outside_letters(

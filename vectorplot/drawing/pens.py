@@ -299,21 +299,26 @@ def read_style(path: str | os.PathLike[str]) -> Style:
 
     Errors: InputError with file, line where there is one, and cause.
     """
+    said, text = read_toml(path, "style")
+    return _style(said, text, os.fspath(path))
+
+
+def read_toml(path: str | os.PathLike[str], what: str) -> tuple[Mapping[str, Any], str]:
+    """What a TOML file says, and its text; what: it is to be. Errors: InputError with file, cause and line if known."""
     file = os.fspath(path)
     try:
         if Path(path).stat().st_size > MOST_BYTES:
-            raise InputError("too large for a style", file=file)
+            raise InputError(f"too large for a {what}", file=file)
         text = Path(path).read_text(encoding="utf-8-sig")
-        said = tomllib.loads(text)
+        return tomllib.loads(text), text
     except tomllib.TOMLDecodeError as error:
         cause, place = str(error), re.search(r" \(at (?:line (\d+), column \d+|end of document)\)", str(error))
         line = int(place[1]) if place and place[1] else len(text.splitlines())
         raise InputError(cause[: place.start()] if place else cause, file=file, line=line) from None
     except UnicodeDecodeError:
-        raise InputError("not UTF-8: this is no style", file=file) from None
+        raise InputError(f"not UTF-8: this is no {what}", file=file) from None
     except OSError as error:
         raise InputError((error.strerror or "cannot be read").lower(), file=file) from None
-    return _style(said, text, file)
 
 
 def _style(said: Mapping[str, Any], text: str, file: str) -> Style:

@@ -143,6 +143,30 @@ SAME_PLACE = 100.0
 """Ends further apart in the world than so many tolerances on the page lie one behind the other."""
 
 
+def segments_of(paths: Paths) -> tuple[Ints, Ints]:
+    """(s,) the stroke that each segment of open strokes is of, and the point it begins at."""
+    counts = np.diff(paths.offsets)
+    starts = np.delete(np.arange(len(paths.points)), paths.offsets[1:][counts > 0] - 1)
+    return ragged.owner(np.maximum(counts - 1, 0)), starts
+
+
+def kept_parts(
+    paths: Paths, owner: Ints, starts: Ints, segment: Ints, low: Floats, high: Floats, page_from_world: Floats
+) -> tuple[Paths, Ints]:
+    """Open strokes of which parts of segments are kept, and the stroke that each comes from.
+
+    owner, starts: see segments_of; segment (k,): in order, kept from low (k,) to high (k,), 0 to 1.
+    """
+    goes_on = (np.diff(segment) == 1) & (high[:-1] == 1.0) & (low[1:] == 0.0)
+    goes_on |= (np.diff(segment) == 0) & (high[:-1] == low[1:])
+    goes_on &= owner[segment[1:]] == owner[segment[:-1]]
+    begin = np.flatnonzero(np.append(True, ~goes_on)[: len(segment)])
+    end = np.flatnonzero(np.append(~goes_on, True)[-len(segment) :]) if len(segment) else begin
+    first, last = segment[begin], segment[end]
+    stroke = owner[first]
+    return sections(paths, stroke, starts[first], low[begin], starts[last], high[end], page_from_world), stroke
+
+
 def going_on(paths: Paths, group: Ints, tolerance_mm: float) -> Bools:
     """(m,) which strokes begin where the one before them ends, within the tolerance on the page and in the world not
     behind it, both of them open parts of one curve, smooth or not, and of equal group (m,)."""
@@ -756,3 +780,71 @@ def _entered(a: Floats, b: Floats, low: Floats, high: Floats) -> tuple[Floats, I
         across = np.where(entry > t, axis, across)
         t = np.maximum(t, entry)
     return t, across
+
+
+# Cutting strokes off at a ring on the page.
+
+AT_ONCE = 1 << 20
+"""So many segments, each for a side of a ring, are looked at together."""
+
+
+def inside_ring(paths: Paths, ring: Floats) -> Paths:
+    """The parts of strokes of a parallel view inside of a ring (k,2) that does not cross itself, in order; closed ones
+    become open. Edge cases: what lies along the ring may be inside or not."""
+    return _divided_by_ring(paths, ring)[0]
+
+
+def outside_ring(paths: Paths, ring: Floats) -> Paths:
+    """The parts outside of it, see inside_ring."""
+    return _divided_by_ring(paths, ring)[1]
+
+
+def _divided_by_ring(paths: Paths, ring: Floats) -> tuple[Paths, Paths]:
+    """The parts of strokes inside and outside of a ring."""
+    if not len(paths.points):
+        return paths, paths
+    cut = unrolled(paths, np.zeros(len(paths), dtype=np.intp), paths.closed.astype(np.intp))
+    owner, starts = segments_of(cut)
+    a, b = cut.points[starts], cut.points[starts + 1]
+    size = max(AT_ONCE // len(ring), 1)
+    found = [_crossings(a[k : k + size], b[k : k + size], ring) for k in range(0, len(a), size)]
+    count = np.concatenate([np.zeros(0, dtype=np.intp), *(np.bincount(s, minlength=n) for s, _, n in found)])
+    every = np.arange(len(a))
+    segment = np.concatenate([every, every, np.repeat(every, count)])
+    at = np.concatenate([np.zeros(len(a)), np.ones(len(a)), *(t for _, t, _ in found)])
+    order = np.lexsort((at, segment))
+    segment, at = segment[order], at[order]
+    part = np.flatnonzero((segment[1:] == segment[:-1]) & (at[1:] > at[:-1]))
+    low, high, segment = at[part], at[part + 1], segment[part]
+    middle = _mixed(a[segment], b[segment], (0.5 * (low + high))[:, None])
+    inside = np.concatenate(
+        [np.zeros(0, dtype=np.bool_), *(_is_inside(middle[k : k + size], ring) for k in range(0, len(middle), size))]
+    )
+    both = (
+        kept_parts(cut, owner, starts, segment[some], low[some], high[some], np.eye(4))[0] for some in (inside, ~inside)
+    )
+    kept, rest = both
+    return kept, rest
+
+
+def _crossings(start: Floats, end: Floats, ring: Floats) -> tuple[Ints, Floats, int]:
+    """Where segments from start to end (s,2) cross the sides of a ring (k,2): the segment and its parameter, of each in
+    the order of segments; and how many segments there are."""
+    along, side = (end - start)[:, None], np.roll(ring, -1, axis=0) - ring
+    away = ring - start[:, None]
+    turn = along[..., 0] * side[:, 1] - along[..., 1] * side[:, 0]
+    divisor = np.where(turn != 0.0, turn, 1.0)
+    t = (away[..., 0] * side[:, 1] - away[..., 1] * side[:, 0]) / divisor
+    u = (away[..., 0] * along[..., 1] - away[..., 1] * along[..., 0]) / divisor
+    segment, which = np.nonzero((turn != 0.0) & (t > 0.0) & (t < 1.0) & (u >= 0.0) & (u < 1.0))
+    return segment, t[segment, which], len(start)
+
+
+def _is_inside(points: Floats, ring: Floats) -> Bools:
+    """Whether points (n,2) are inside of a ring: a ray to the right crosses it an odd number of times."""
+    after = np.roll(ring, -1, axis=0)
+    x, y = points[:, :1], points[:, 1:]
+    rises = (ring[:, 1] > y) != (after[:, 1] > y)
+    slope = (after[:, 0] - ring[:, 0]) / np.where(after[:, 1] != ring[:, 1], after[:, 1] - ring[:, 1], 1.0)
+    crossed = rises & (x < ring[:, 0] + (y - ring[:, 1]) * slope)
+    return np.asarray(crossed.sum(axis=1) % 2 == 1)

@@ -29,10 +29,10 @@ from vectorplot.drawing.letters import (
     set_glyphs,
     turned,
 )
-from vectorplot.drawing.strokes import chosen, concatenated, sections, unrolled
+from vectorplot.drawing.strokes import chosen, concatenated, kept_parts, segments_of, unrolled
 from vectorplot.drawing.texts import Texts
 from vectorplot.errors import InputError
-from vectorplot.geometry import intervals, ragged
+from vectorplot.geometry import intervals
 from vectorplot.geometry.elementary import arctan2
 from vectorplot.scene.page import in_latex
 from vectorplot.tolerances import UNION_OF_SEGMENT
@@ -287,9 +287,7 @@ def outside_boxes(paths: Paths, boxes: Floats, page_from_world: Floats) -> Paths
         return paths
     cut = chosen(paths, touched)
     cut = unrolled(cut, np.zeros(len(cut), dtype=np.intp), cut.closed.astype(np.intp))
-    counts = np.diff(cut.offsets)
-    owner = ragged.owner(np.maximum(counts - 1, 0))
-    starts = np.delete(np.arange(len(cut.points)), cut.offsets[1:][counts > 0] - 1)
+    owner, starts = segments_of(cut)
     a, b = cut.points[starts], cut.points[starts + 1]
     segment, box = near_boxes(a, b, boxes)
     low, high = inside_box(a[segment], b[segment], boxes[box])
@@ -297,15 +295,10 @@ def outside_boxes(paths: Paths, boxes: Floats, page_from_world: Floats) -> Paths
     fine = np.full(len(starts), UNION_OF_SEGMENT)
     covered = intervals.union(segment[hit], low[hit], high[hit], fine)
     segment, low, high = intervals.complement(len(starts), *covered, fine)
-    goes_on = (np.diff(segment) == 1) & (high[:-1] == 1.0) & (low[1:] == 0.0)
-    goes_on &= owner[segment[1:]] == owner[segment[:-1]]
-    begin = np.flatnonzero(np.append(True, ~goes_on)[: len(segment)])
-    end = np.flatnonzero(np.append(~goes_on, True)[-len(segment) :]) if len(segment) else begin
-    first, last = segment[begin], segment[end]
-    parts = sections(cut, owner[first], starts[first], low[begin], starts[last], high[end], page_from_world)
+    parts, stroke = kept_parts(cut, owner, starts, segment, low, high, page_from_world)
     whole = np.ones(len(paths), dtype=np.bool_)
     whole[touched] = False
-    source = np.concatenate([np.flatnonzero(whole), touched[owner[first]]])
+    source = np.concatenate([np.flatnonzero(whole), touched[stroke]])
     return chosen(concatenated((chosen(paths, whole), parts)), np.argsort(source, kind="stable"))
 
 

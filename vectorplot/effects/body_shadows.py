@@ -367,15 +367,23 @@ class Depths:
 
 
 def lit_bodies(
-    view: View, planes: FacePlanes, system: LightSystem, facing: Ints, items: Bools, off: Floats
+    view: View,
+    planes: FacePlanes,
+    system: LightSystem,
+    facing: Ints,
+    items: Bools,
+    off: Floats,
+    sides: Ints,
+    receivers: Ints,
 ) -> LitBodies:
-    """The bodies among items (i,) for a light.
+    """The bodies among items (i,) for a light; sides (i,): as of body_sides.
 
     off (i,): how far the faces of an item may be off the surface that they stand for: so far the outline may be off its
-    hull. The corners of convex bodies are on them, and so is the hull.
+    hull. The corners of convex bodies are on them, and so is the hull. receivers (r,): the faces that shadows may fall
+    on; bodies beside which none of another item is among these need no region.
     Source: Glaeser, section 6.3, figure 5 (convex bodies and their outlines).
     """
-    _, turned = turned_to_light(view, planes, system, facing)
+    _, turned = turned_to_light(view, sides, system, facing)
     face = np.flatnonzero(turned & items[view.face_item])
     face = face[narrow(view, system, face)]
     item, body = np.unique(view.face_item[face], return_inverse=True)
@@ -395,7 +403,9 @@ def lit_bodies(
     casters = Casters(volumes, item[kept], face[own], np.searchsorted(kept, body[own]))
     number = np.full(len(view.item_vertices) - 1, -1, dtype=np.intp)
     number[item] = np.arange(len(item))
-    other = np.flatnonzero(~convex[of] & ~system.windowed)
+    on = np.unique(view.face_item[receivers])
+    beside = np.full(len(item), len(on) > 1) | ~np.isin(item, on) & (len(on) > 0)
+    other = np.flatnonzero((~convex & beside)[of] & ~system.windowed)
     same = np.repeat(system.axes[0][:, :, None], len(item), axis=2)
     sides = np.stack([image_of(view, system, same, some[other], of[other]) for some in (start, end)])
     regions = covered(sides, of[other], len(item), view.tolerance / np.max(scale, initial=1.0))

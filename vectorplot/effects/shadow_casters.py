@@ -11,15 +11,19 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul
+from vectorplot.geometry.boxes import overlapping_boxes
 from vectorplot.geometry.clipping import Polygons, cut_polygons
 from vectorplot.geometry.component_arrays import cross
 from vectorplot.geometry.polygon_cuts import PlaneBundles, planes_of
 from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, LineElements
 from vectorplot.geometry.records import IN_COLUMNS
+from vectorplot.geometry.rotations import look_rotation
 from vectorplot.scene.light import Light
 from vectorplot.scene.view import View
-from vectorplot.visibility.painter.unseen import body_sides
-from vectorplot.visibility.projected_faces import newell
+from vectorplot.tolerances import NEAR_OF_DISTANCE
+from vectorplot.visibility.painter.unseen import unseen_faces
+from vectorplot.visibility.polyhedra.lines import near_plane, window_planes
+from vectorplot.visibility.projected_faces import crossing_items, newell, project_faces
 
 # A view from a light: which faces are lit, and what lies before what on the rays of light.
 #
@@ -132,6 +136,40 @@ def _axes(away: Floats) -> Floats:
 
 
 @dataclass(frozen=True, eq=False)
+class LightView:
+    """What a light sees, as a camera without twist; turn (3,3): from the coordinates of the picture's view to those of
+    this one; planes (p,4): what it sees is on the positive side of these."""
+
+    view: View
+    turn: Floats
+    planes: Floats
+
+
+def light_views(view: View, system: LightSystem) -> list[LightView]:
+    """The images of a light: one, or six in a cube about a lamp that stands in the midst of the scene."""
+    found = []
+    for back in [system.position] if system.parallel else [-axes[2] for axes in system.axes]:
+        turn = np.ascontiguousarray(look_rotation(back).T)
+        eye = None if system.parallel else matmul(turn, system.position)
+        focus = 1.0 if eye is None else max(float(eye[2]), 1.0)
+        seen = replace(
+            view,
+            axes=matmul(turn, view.axes),
+            points=matmul(turn, view.points),
+            eye=eye,
+            target=np.zeros(3),
+            focus=focus,
+            near=-np.inf if eye is None else NEAR_OF_DISTANCE,
+        )
+        planes = near_plane(seen)
+        if system.windowed:
+            corner = np.full(2, focus)
+            planes = np.concatenate([planes, window_planes(seen, -corner, corner)])
+        found.append(LightView(seen, turn, planes))
+    return found
+
+
+@dataclass(frozen=True, eq=False)
 class LightBoxes:
     """Where faces are in one image of a light: which (n,), ascending; box (6,n): smallest and largest x and y, nearest
     and farthest depth."""
@@ -231,9 +269,9 @@ class Casters:
 
 
 def shadow_casters(
-    view: View, planes: FacePlanes, system: LightSystem, facing: Ints, items: Bools, solids: Bools
+    view: View, planes: FacePlanes, system: LightSystem, facing: Ints, items: Bools, solids: Bools, sides: Ints
 ) -> Casters:
-    """What the items (i,) that cast shadows, solids (i,) among them, put before a light.
+    """What the items (i,) that cast shadows, solids (i,) among them, put before a light; sides (i,): as of body_sides.
 
     A closed body that the light is outside of keeps it away with the faces that it turns to the light; any other item
     with all its faces. Edge cases: faces that the light grazes keep nothing away.
@@ -243,7 +281,7 @@ def shadow_casters(
     whole = items & solids & lit
     of_solid = np.flatnonzero(whole[view.face_item] & (facing > 0))
     loose = items & ~whole
-    one_sided, turned = turned_to_light(view, planes, system, facing)
+    one_sided, turned = turned_to_light(view, sides, system, facing)
     alone = np.flatnonzero(loose[view.face_item] & (facing != 0) & (~one_sided[view.face_item] | turned))
     item, owner = np.unique(view.face_item[of_solid], return_inverse=True)
     face = np.concatenate([of_solid, alone])
@@ -252,9 +290,10 @@ def shadow_casters(
     return Casters(volumes, np.concatenate([item, view.face_item[alone]]), face, caster)
 
 
-def turned_to_light(view: View, planes: FacePlanes, system: LightSystem, facing: Ints) -> tuple[Bools, Bools]:
-    """(i,) closed items, see body_sides, that the light is outside of, and (f,) the faces that they turn to it."""
-    side = np.where(_near_light(view, system), 0, body_sides(view))
+def turned_to_light(view: View, sides: Ints, system: LightSystem, facing: Ints) -> tuple[Bools, Bools]:
+    """(i,) closed items, by their sides (i,), see body_sides, that the light is outside of, and (f,) the faces that
+    they turn to it."""
+    side = np.where(_near_light(view, system), 0, sides)
     return side != 0, np.asarray(facing * side[view.face_item] > 0)
 
 
@@ -270,6 +309,37 @@ def _near_light(view: View, system: LightSystem) -> Bools:
     light = system.position[:, None]
     result[filled] = ((light >= low - view.tolerance) & (light <= high + view.tolerance)).all(axis=0)
     return result
+
+
+def unpierced_faces(view: View, items: Bools, sides: Ints) -> Bools:
+    """(f,) the faces of some items (i,) that nothing pierces for certain: those of items that do not cross themselves,
+    outside the boxes of others. sides (i,): as of body_sides."""
+    crossing = crossing_items(view, np.flatnonzero((items & (sides == 0))[view.face_item]))
+    result = (items & ~np.isin(np.arange(len(items)), crossing))[view.face_item]
+    face = np.flatnonzero(result)
+    item = np.flatnonzero(np.diff(view.item_vertices))
+    if len(item) < 2 or not len(face):
+        return result
+    world = matmul(view.axes.T, view.points)
+    starts = view.item_vertices[item]
+    boxes = [f.reduceat(world, starts, axis=1) for f in (np.minimum, np.maximum)]
+    position, offsets = ragged.take(view.offsets, face)
+    corner = world[:, view.corners[position]]
+    low, high = (f.reduceat(corner, offsets[:-1], axis=1) for f in (np.minimum, np.maximum))
+    which, other = overlapping_boxes(low - view.tolerance, high + view.tolerance, *boxes)
+    result[face[which[item[other] != view.face_item[face[which]]]]] = False
+    return result
+
+
+def unlit_faces(view: View, system: LightSystem, items: Bools, unpierced: Bools, pairs: float) -> Bools:
+    """(f,) which faces, of those that nothing pierces (f,), a light does not reach at all, items (i,) being in its way:
+    those that are unseen in its image, see unseen_faces; none in the light of a lamp in the midst of the scene."""
+    if system.windowed:
+        return np.zeros_like(unpierced)
+    (image,) = light_views(view, system)
+    seen = replace(image.view, occludes=items)
+    projected = project_faces(seen)
+    return unseen_faces(seen, projected, unpierced & (projected.facing != 0), np.zeros_like(unpierced), pairs)
 
 
 def _volumes(

@@ -23,6 +23,8 @@ from vectorplot.effects.shadow_casters import (
     crowds,
     light_system,
     shadow_casters,
+    unlit_faces,
+    unpierced_faces,
 )
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.geometry import ragged
@@ -30,7 +32,15 @@ from vectorplot.geometry.budget import USUAL, Budget, in_turn, mapped, unresolve
 from vectorplot.geometry.polygon_cuts import Crossings, Parts, crossings_of, parts_of
 from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, LineElements, joined
 from vectorplot.geometry.records import IN_COLUMNS
-from vectorplot.geometry.regions import cells_of, corners_of, polygons_of, unions, without_holes, without_splinters
+from vectorplot.geometry.regions import (
+    WIDTH_KEPT,
+    cells_of,
+    corners_of,
+    polygons_of,
+    unions,
+    without_holes,
+    without_splinters,
+)
 from vectorplot.scene.item import Item
 from vectorplot.scene.light import Light
 from vectorplot.scene.scene import Scene
@@ -175,8 +185,12 @@ def _arranged(view: View, shadows: Shadows) -> Shadows:
 def _cells(region: Any, on: Ints, light: Ints, tolerance: float) -> tuple[Any, Ints, Ints]:
     """Regions on faces on (r,), ascending, that lack one light each, as cells: polygons (k,), their faces, and the
     lights that they lack; one region is its own cell."""
+    import shapely
+
     one = (np.bincount(on) == 1)[on]
     parts, of = without_splinters(region[one], tolerance)
+    # Where the shadow of one thing ends and that of the next begins, the border goes straight on.
+    parts = shapely.simplify(parts, WIDTH_KEPT * tolerance)
     several = np.flatnonzero(~one)
     if not len(several):
         return parts, on[one][of], light[one][of]
@@ -324,27 +338,31 @@ def cast_within(
     solids = solid_items(replace(view, occludes=items), projected, most_faces=MOST_FACES)
     planes = FacePlanes.of(view)
     off = np.zeros(len(items)) if off is None else off
-    seen = drawn_faces(view, projected)
+    seen, sides = drawn_faces(view, projected), projected.sides
     seen = seen if receivers is None else seen[receivers[seen]]
+    unpierced = unpierced_faces(view, items & ~solids, sides)
     found, missing = [], [np.zeros((3, 0), dtype=np.intp)]
     for number, light in in_turn(enumerate(lights)):
         system = light_system(view, light)
         facing = system.facing(planes, view.tolerance)
         lit = seen[facing[seen] * projected.facing[seen] > 0]
-        bodies = lit_bodies(view, planes, system, facing, items & ~solids, off)
+        bodies = lit_bodies(view, planes, system, facing, items & ~solids, off, sides, lit)
         bright = Receivers.of(view, lit)
         outlined, open_items, open_receivers = _of_outlines(view, system, bodies, bright, number)
         alone = items.copy()
         alone[bodies.item[bodies.convex]] = False
         within, receiver, points, offsets = bodies.beyond(bright)
-        within = np.union1d(within, shut_out(view, system, items, bright))
+        unlit = unlit_faces(view, system, items, unpierced & alone[view.face_item], pairs)
+        within = np.union1d(np.union1d(within, shut_out(view, system, items, bright)), np.flatnonzero(unlit[lit]))
         inside = _whole(bright.take(within), number)
         lacking = np.full(len(receiver), 1 << number, dtype=np.intp)
         beyond = Shadows(points, offsets, bright.face[receiver], lacking, np.zeros(len(receiver), dtype=np.bool_))
         parts = [joined_shadows([outlined, inside, beyond]).without_needless()]
         still = ~np.isin(bright.face, parts[0].face[parts[0].whole])
+        # What lies in the shadow of something keeps no light away but what that does.
+        facing = np.where(unlit, 0, facing)
         for casters, on in ((alone, still), (open_items, still & open_receivers)):
-            dark = replace(shadow_casters(view, planes, system, facing, casters, solids), known=bodies.settle)
+            dark = replace(shadow_casters(view, planes, system, facing, casters, solids, sides), known=bodies.settle)
             under = bright.take(np.flatnonzero(on))
             crowded = crowds(view, system, dark, under, pairs)
             missing.append(np.insert(crowded, 0, number, axis=0))

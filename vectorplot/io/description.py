@@ -68,7 +68,8 @@ def _changes(scene: Scene) -> list[str]:
         lines.append(f"cut {planes}, {cut.away}" + ("" if cut.items is None else f", of {', '.join(cut.items)}"))
     if scene.explosion is not None:
         low, high = shown_apart(scene).bounds
-        lines.append(f"parts moved apart by {scene.explosion.factor:g}, then {_box(low, high)}")
+        by = f"{len(scene.explosion.moves)} moves" if scene.explosion.moves else f"{scene.explosion.factor:g}"
+        lines.append(f"parts moved apart by {by}, then {_box(low, high)}")
     return lines
 
 

@@ -33,6 +33,7 @@ from vectorplot.io.scene_statements import (
     read_ink,
     read_label,
     read_light,
+    read_measures,
     read_page,
     read_scale_bar,
 )
@@ -134,6 +135,7 @@ class _Reader(ItemReader):
         self.annotations: list[Scene] = []
         self.pens: list[tuple[int, str]] = []
         self.cuts: list[int] = []
+        self.moves: list[int] = []
         self.settings = Scene(items=())
         self.set: set[str] = set()
         self.lit: list[tuple[int, Draft]] = []
@@ -186,12 +188,17 @@ class _Reader(ItemReader):
                 self.source.fail(index, unknown_item(item, tuple(names)).cause)
 
     def check_cuts(self) -> None:
-        """An InputError for cuts of items that are not there; items may come behind them."""
+        """An InputError for cuts and moves of items that are not there; items may come behind them."""
         known = [item.name for item in self.items]
         for index, cut in zip(self.cuts, self.settings.cuts, strict=True):
             for name in cut.items or ():
                 if name not in known:
                     self.source.fail(index, unknown("cut: item", name, known).cause)
+        known += [item.group for item in self.items if item.group]
+        for index in self.moves:
+            name = self.source.string(index + 1)
+            if name not in known:
+                self.source.fail(index, unknown("explode: item", name, known).cause)
 
     def check_range(self) -> None:
         """An InputError for polyhedra, as they stand in the scene, whose coordinates leave the range of numbers."""
@@ -213,7 +220,7 @@ class _Reader(ItemReader):
             annotation, self.at = read_annotation(self.source, self.at)
             self.annotations.append(annotation)
             return
-        if word in self.set and word not in ("light", "label", "cut", *INK_WORDS):
+        if word in self.set and word not in ("light", "label", "cut", "explode", *INK_WORDS):
             self.fail(f"a second '{word}'")
         self.set.add(word)
         source, now = self.source, self.settings
@@ -235,8 +242,12 @@ class _Reader(ItemReader):
             self.pens.append((self.at + 1, pen_target(source, self.at)))
             inks, self.at = read_ink(source, self.at, now.inks, self.files)
             self.settings = replace(now, inks=inks)
+        elif word == "measures":
+            measures, self.at = read_measures(source, self.at)
+            self.settings = replace(now, measures=measures)
         elif word == "explode":
-            explosion, self.at = read_explosion(source, self.at)
+            self.moves += [self.at] if self.words[self.at + 1].startswith('"') else []
+            explosion, self.at = read_explosion(source, self.at, now.explosion)
             self.settings = replace(now, explosion=explosion)
         elif word == "page":
             page, self.at = read_page(source, self.at)

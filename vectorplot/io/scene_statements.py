@@ -15,12 +15,18 @@ from vectorplot.scene.annotations import (
     angle,
     arrow,
     axes,
+    baseline_dimension,
     centre_line,
     centre_mark,
+    chain_dimension,
+    chamfer,
     diameter,
     dimension,
     leader,
+    ordinate_dimension,
     radius,
+    thread,
+    threaded_hole,
 )
 from vectorplot.scene.cuts import AWAY, AXES, Cut, Explosion
 from vectorplot.scene.labels import (
@@ -31,6 +37,7 @@ from vectorplot.scene.labels import (
     Along,
     AtVertex,
     Label,
+    Measures,
     OnCurve,
     OnPage,
     capital_height,
@@ -190,7 +197,7 @@ Anchor = tuple[float, float, float] | AtVertex | OnCurve | Along | OnPage
 
 _LABEL_CHOICES = {"place": PLACES, "hidden": HIDDEN, "mark": MARKS}
 _LABEL_ANCHORS = ("at", "vertex", "on", "along", "page")
-_LABEL_WORDS = (*_LABEL_ANCHORS, "size", *_LABEL_CHOICES)
+_LABEL_WORDS = (*_LABEL_ANCHORS, "size", "measured", *_LABEL_CHOICES)
 
 
 def read_label(words: Words, at: int) -> tuple[Label, int]:
@@ -220,6 +227,8 @@ def read_label(words: Words, at: int) -> tuple[Label, int]:
             except InputError as error:
                 words.fail(at, owner + error.cause)
             at += 1
+        elif word == "measured":
+            given[word], at = words.string(at), at + 1
         else:
             if words.words[at] not in _LABEL_CHOICES[word]:
                 known = ", ".join(_LABEL_CHOICES[word])
@@ -231,6 +240,26 @@ def read_label(words: Words, at: int) -> tuple[Label, int]:
         words.fail(at, f"{owner}expected {', '.join(_LABEL_ANCHORS)}, got {words.shown(at)}")
     try:
         return Label(text, anchor, name, **given), at
+    except InputError as error:
+        words.fail(start, error.cause)
+
+
+_MEASURE_FLAGS = ("zeros", "comma")
+
+
+def read_measures(words: Words, at: int) -> tuple[Measures, int]:
+    """How the words from ``measures`` on write measures, and the word behind them."""
+    start, at, given = at, at + 1, dict[str, Any]()
+    while (word := words.words[at]) in (*_MEASURE_FLAGS, "decimals"):
+        if word in given:
+            words.fail(at, f"measures: a second '{word}'")
+        given[word] = words.whole(at + 1, "measures: ", word) if word == "decimals" else True
+        at += 2 if word == "decimals" else 1
+    _check_spelling(words, start, at, ("decimals", *_MEASURE_FLAGS))
+    if not given:
+        words.fail(at, f"measures: expected decimals, zeros or comma, got {words.shown(at)}")
+    try:
+        return Measures(**given), at
     except InputError as error:
         words.fail(start, error.cause)
 
@@ -427,9 +456,10 @@ def read_exposure(words: Words, at: int) -> tuple[Exposure, int]:
 
 @dataclass(frozen=True)
 class _Field:
-    """What stands behind a word: three numbers, one, three strings or a size; as: the keyword it becomes."""
+    """What stands behind a word: three numbers, points with commas between them, one number, three strings or a size;
+    key: the keyword it becomes."""
 
-    kind: Literal["point", "number", "names", "size"]
+    kind: Literal["point", "points", "number", "names", "size"]
     key: str
     needed: bool = True
 
@@ -448,6 +478,9 @@ def _point(key: str, needed: bool = True) -> _Field:
 
 
 _SIZE = {"size": _Field("size", "size_mm", False)}
+_LINES = {"gap": _Field("number", "gap", False), "beyond": _Field("number", "beyond", False), **_SIZE}
+_ROW = {"at": _Field("points", "points"), "offset": _point("offset"), **_LINES}
+_THREAD = {"from": _point("start"), "to": _point("end"), "radius": _Field("number", "radius")}
 _ROUND = {"at": _point("centre"), "to": _point("point"), **_SIZE}
 
 ANNOTATIONS: Mapping[str, _Annotation] = {
@@ -468,11 +501,15 @@ ANNOTATIONS: Mapping[str, _Annotation] = {
             "from": _point("start"),
             "to": _point("end"),
             "offset": _point("offset"),
-            "gap": _Field("number", "gap", False),
-            "beyond": _Field("number", "beyond", False),
-            **_SIZE,
+            **_LINES,
         },
     ),
+    "chain_dimension": _Annotation(chain_dimension, _ROW, "none"),
+    "baseline_dimension": _Annotation(baseline_dimension, {**_ROW, "step": _Field("number", "step", False)}, "none"),
+    "ordinate_dimension": _Annotation(ordinate_dimension, {**_ROW, "apart": _Field("number", "apart", False)}, "none"),
+    "chamfer": _Annotation(chamfer, {"from": _point("start"), "to": _point("end"), "at": _point("elbow"), **_SIZE}),
+    "thread": _Annotation(thread, _THREAD, "none"),
+    "threaded_hole": _Annotation(threaded_hole, _THREAD, "none"),
     "radius": _Annotation(radius, _ROUND),
     "diameter": _Annotation(diameter, _ROUND),
     "angle": _Annotation(
@@ -550,6 +587,14 @@ def _value(words: Words, at: int, owner: str, word: str, field: _Field) -> tuple
     """What stands behind a word, and the word behind it."""
     if field.kind == "point":
         return words.numbers(at, 3, owner, word)
+    if field.kind == "points":
+        points = []
+        while True:
+            point, at = words.numbers(at, 3, owner, word)
+            points.append(point)
+            if words.words[at] != ",":
+                return points, at
+            at += 1
     if field.kind == "number":
         return words.number(at, owner, word), at + 1
     if field.kind == "size":
@@ -593,9 +638,18 @@ def pen_target(words: Words, at: int) -> str:
     return "" if words.words[at] == "style" else _target(words, at + 1, words.words[at])[0]
 
 
-def read_explosion(words: Words, at: int) -> tuple[Explosion, int]:
-    """How the words from ``explode`` on move parts apart, and the word behind them."""
+def read_explosion(words: Words, at: int, now: Explosion | None) -> tuple[Explosion, int]:
+    """How the words from ``explode`` on move parts apart, and the word behind them; now: what was said of it before."""
     start, axis = at, words.words[at + 1]
+    moves = () if now is None else now.moves
+    if axis.startswith('"'):
+        name = words.string(at + 1)
+        if now is not None and (not moves or name in dict(moves)):
+            words.fail(at, f"a second 'explode'{f' of {name}' if moves else ''}")
+        step, at = words.numbers(at + 2, 3, "explode: ", "the move")
+        return Explosion(moves=(*moves, (name, (step[0], step[1], step[2])))), at
+    if now is not None:
+        words.fail(at, "a second 'explode'")
     way: str | tuple[float, float, float] = axis
     if words.is_number(at + 1):
         (x, y, z), at = words.numbers(at + 1, 3, "explode: ", "the axis")

@@ -61,7 +61,11 @@ ITEM_WORDS = (
 SLOT_TOO = ("radius", "angle")
 """Words for annotations that are also words of surfaces: what comes next tells."""
 
-ANNOTATION_WORDS = ("axes", "arrow", "dimension", "diameter", "leader", "centre_line", "centre_mark", *SLOT_TOO)
+ANNOTATION_WORDS = (
+    *("axes", "arrow", "dimension", "diameter", "leader", "centre_line", "centre_mark"),
+    *("chain_dimension", "baseline_dimension", "ordinate_dimension", "chamfer", "thread", "threaded_hole"),
+    *SLOT_TOO,
+)
 """The words for lines and labels that make items of their own."""
 
 SCENE_WORDS = (
@@ -79,7 +83,7 @@ SCENE_WORDS = (
         "exposure",
         "depth_cue",
     ),
-    *("style", "pen", "dash", "explode"),
+    *("style", "pen", "dash", "explode", "measures"),
     *("include", "assembly", "end"),
     *(word for word in ANNOTATION_WORDS if word not in SLOT_TOO),
 )

@@ -27,7 +27,7 @@ from vectorplot.io.scene_words import bare_word
 from vectorplot.io.shape_arguments import Formulas
 from vectorplot.scene.cuts import Cut
 from vectorplot.scene.item import Item, Pattern
-from vectorplot.scene.labels import Along, AtVertex, BesidePoint, Label, OnCurve, OnPage
+from vectorplot.scene.labels import Along, AtVertex, BesidePoint, Label, Measures, OnCurve, OnPage
 from vectorplot.scene.light import Light
 from vectorplot.scene.material import FINISH_WORDS, Material
 from vectorplot.scene.page import Page, in_latex
@@ -387,7 +387,11 @@ def write_scene(scene: Scene) -> str:
     blocks.extend(map(_label, scene.labels))
     blocks.extend(_cut(cut) for cut in scene.cuts if cut.items != ())
     if scene.explosion is not None:
-        blocks.append(f"explode {_numbers(scene.explosion.way)} {scene.explosion.factor:.17g}")
+        said = scene.explosion
+        blocks.extend(f"explode {dumps(name)} {_numbers(step)}" for name, step in said.moves)
+        blocks.extend([] if said.moves else [f"explode {_numbers(said.way)} {said.factor:.17g}"])
+    if scene.measures is not None and (told := _measures(scene.measures)):
+        blocks.append(f"measures {told}")
     if scene.inks is not None:
         blocks.extend(ink_texts(scene.inks))
     return "".join(block + "\n" for block in blocks)
@@ -480,6 +484,7 @@ def _label(label: Label) -> str:
         place,
         f"size {_size(label.capitals_mm)}",
     ]
+    words += [f"measured {dumps(label.measured)}"] if label.measured else []
     words += [f"place {label.place}", *([f"hidden {label.hidden}"] if label.hidden else []), f"mark {label.mark}"]
     return " ".join(words)
 
@@ -487,6 +492,11 @@ def _label(label: Label) -> str:
 def _size(size_mm: float) -> str:
     """A size of letters: the word that LaTeX has for it, or mm."""
     return in_latex(size_mm) or repr(float(size_mm))
+
+
+def _measures(measures: Measures) -> str:
+    decimals = [] if measures.decimals is None else [f"decimals {measures.decimals}"]
+    return " ".join([*decimals, *(word for word in ("zeros", "comma") if getattr(measures, word))])
 
 
 def _item(item: Item, lights: tuple[Light, ...]) -> str:

@@ -20,9 +20,17 @@ from vectorplot.scene.page import Page
 from vectorplot.scene.placement import Placement, field_of_vision, fitted_picture
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import NOTHING, View, view_of
-from vectorplot.shading.facet_resolution import SHADE_ERROR, shade_error, without_curved_mirror
+from vectorplot.shading.facet_resolution import without_curved_mirror
 from vectorplot.shading.palettes import COLOUR_MAP
-from vectorplot.shading.shade_bands import Margin, ShadeBands, ShadedCharts, shade_bands
+from vectorplot.shading.shade_bands import (
+    Margin,
+    ShadeBands,
+    ShadedCharts,
+    band_widths,
+    half_band_steps,
+    palette_reaches,
+    shade_bands,
+)
 from vectorplot.shading.shaded_faces import exposed_scene, item_colours, view_eye
 from vectorplot.visibility.painter.body_order import BodyCuts, BodyOrder, body_order
 from vectorplot.visibility.painter.image_faces import ImageFaces
@@ -35,20 +43,6 @@ from vectorplot.visibility.quadrics.visible_parts import (
     visible_parts,
     with_overlaps,
 )
-
-MIDDLING_MM = 10.0
-"""Bodies of this radius on the page have bands that are off by as much as shades of triangles; the width of the bands
-of larger and smaller ones goes with the root of the radius."""
-
-WIDEST, NARROWEST = 2.0, 0.5
-"""Times the width of the bands of middling bodies that bands of small and of large ones have."""
-
-FEWEST, MOST_PER_MM = 6, 20.0
-"""Bands of a palette; no more than so many for each mm of a radius, since narrower ones are not seen."""
-
-LOOSE, LOOSE_OF_BAND = 2.5, 0.5
-"""Isophotes may be off by so many tolerances, and by such a part of the radius less the number of bands: where a band
-ends is seen far less than where a body does."""
 
 OVERLAP = 2.0
 """So many tolerances mantles go on under flat ends, which are painted on them, so that nothing is seen between them."""
@@ -181,18 +175,11 @@ def banded_fills(
     return _fills(whole, scene.items, item, bands, placement, place), off_mm
 
 
-def _reaches(items: Sequence[Item], item: Ints) -> Floats:
-    """(n,) how far the palettes of items reach from dark to bright, as a part of all that there is."""
-    dark, bright = (item_colours(items, item, np.full(len(item), shade), COLOUR_MAP) for shade in (0.0, 1.0))
-    return np.asarray(np.abs(bright.astype(np.float64) - dark).max(axis=1) / 255.0)
-
-
 def band_error_steps(whole: WholeBodies, placement: Placement, tolerance_mm: float) -> float | None:
     """By how many of 255 steps colours within bands are off those of the bands, at most."""
     items = whole.scene.items
     steps, _ = _widths(items, whole, placement, tolerance_mm)
-    reach = _reaches(items, whole.bodies.item[whole.charts.body])
-    return float((127.5 * reach / steps).max(initial=0.0))
+    return half_band_steps(palette_reaches(items, whole.bodies.item[whole.charts.body]), steps)
 
 
 def _grain(whole: WholeBodies, casts: bool) -> Floats:
@@ -216,17 +203,10 @@ def millimetres(whole: WholeBodies, placement: Placement) -> Floats:
 def _widths(
     items: Sequence[Item], whole: WholeBodies, placement: Placement, tolerance_mm: float
 ) -> tuple[Floats, Floats]:
-    """(n,) how many bands a palette has on each chart: so many that shades are off by no more than half of the width of
-    one, and fewer where a palette has fewer colours; and (n,) how far isophotes may be off on the page."""
+    """As of band_widths, of each chart."""
     bodies, charts = whole.bodies, whole.charts
-    colours = _reaches(items, bodies.item[charts.body])
     radius = (bodies.sizes[0] / millimetres(whole, placement))[charts.body]
-    wide = np.clip(np.sqrt(MIDDLING_MM / np.maximum(radius, MIDDLING_MM / 16.0)), NARROWEST, WIDEST)
-    # Wider ones are seen, whatever the tolerance is.
-    allowed = min(shade_error(tolerance_mm), SHADE_ERROR)
-    steps = np.minimum(colours / (2.0 * wide * allowed), MOST_PER_MM * radius)
-    steps = np.maximum(np.ceil(steps), FEWEST)
-    return steps, np.minimum(LOOSE * tolerance_mm, LOOSE_OF_BAND * radius / steps)
+    return band_widths(palette_reaches(items, bodies.item[charts.body]), radius, tolerance_mm)
 
 
 def _margins(cuts: BodyCuts, charts: Charts) -> list[Margin]:

@@ -141,7 +141,8 @@ def shades_of_faces(
     found: list[Shade | None] = []
     for light in lights:
         system = light_system(view, light)
-        casters = shadow_casters(view, planes, system, system.facing(planes, view.tolerance), items, solids)
+        facing = system.facing(planes, view.tolerance)
+        casters = shadow_casters(view, planes, system, facing, items, solids, projected.sides)
         pairs = [np.zeros((2, 0), dtype=np.intp)]
         sizes = np.diff(casters.volumes.offsets)
         for low, high in ragged.batches(sizes * max(len(radius), 1), PAIRS_AT_ONCE):

@@ -22,7 +22,7 @@ from vectorplot.geometry.component_arrays import dot
 from vectorplot.geometry.mesh_cuts import level_bands
 from vectorplot.geometry.projections import Projection
 from vectorplot.pictures.pipeline import Pipeline
-from vectorplot.pictures.plan import has_surfaces
+from vectorplot.pictures.plan import has_surfaces, may_have_bands
 from vectorplot.scene.page import Page
 from vectorplot.scene.placement import Placement, allowed_in_space
 from vectorplot.scene.scene import Scene
@@ -49,7 +49,7 @@ from vectorplot.shading.shaded_faces import Shades, at_corners, exposed_scene, p
 from vectorplot.tolerances import SAME_SHADE, SIDE_BY_SIDE_MM
 from vectorplot.visibility.painter.height_fields import known_orders
 from vectorplot.visibility.painter.image_faces import ImageFaces, view_points
-from vectorplot.visibility.painter.painters_order import Painted, painters_order, side_by_side
+from vectorplot.visibility.painter.painters_order import Painted, painters_order, picture_layers, side_by_side
 from vectorplot.visibility.painter.unseen import unseen_faces
 from vectorplot.visibility.projected_faces import ProjectedFaces, project_faces
 
@@ -102,7 +102,7 @@ def without_unseen_facets(
     to find these."""
     smooth = smooth_items(faceted)
     pieces = np.bincount(painted.faces.source, minlength=view.face_count)
-    unseen = unseen_faces(view, projected, (pieces > 0) & smooth[view.face_item], pieces > 1, budget)
+    unseen = unseen_faces(view, projected, (pieces > 0) & smooth[view.face_item], pieces > 1, budget.pairs)
     return painted.faces.take(np.flatnonzero(~unseen[painted.faces.source]))
 
 
@@ -299,17 +299,63 @@ def coloured(
     after: the polygon whose steps of shade they are, -1 for what lies on such, is seen in them, or is paper; cast:
     their shadows, where more throws some than these polygons; united (f,): faces of the view with one number may become
     one polygon where they follow each other (None: those of one plane)."""
-    shades = pipeline.run("shades", shades_of_faces, seen, lighting).total
+    split = None
+    if cast is None and pipeline.calls_for("surface bands"):
+        split = pipeline.run("layers", _layers, seen, lighting)
+    rest = seen if split is None else replace(seen, faces=seen.faces.take(np.flatnonzero(~split.banded)))
+    shades = pipeline.run("shades", shades_of_faces, rest, lighting).total
     pipeline.measured("shades", "of 255", shade_error_steps, seen, lighting)
-    seen, shades, whole = posterized(seen, lighting, shades)
+    rest, shades, whole = posterized(rest, lighting, shades)
     aura = aura_mm / seen.placement.scale
     decals, lighting = _decals(pipeline, seen, lighting, aura, tolerance_mm, budget, cast)
-    laid = _laid(seen, lighting, decals)
-    overlays = _overlays(pipeline, seen, lighting, decals, aura, tolerance_mm, budget)
-    painted = pipeline.run("fills", _fills, pipeline, seen, lighting, shades, laid, overlays, page, united)
+    laid = _laid(rest, lighting, decals)
+    overlays = _overlays(pipeline, rest, lighting, decals, aura, tolerance_mm, budget)
+    plane = (lighting.plane if united is None else united)[rest.faces.source]
+    if split is not None:
+        plane = split.unit[~split.banded]
+    painted = pipeline.run("fills", _fills, pipeline, rest, lighting, shades, laid, overlays, page, plane)
     # A face comes before all that lies on it.
+    if split is not None:
+        from vectorplot.effects.decals import joined_decals
+        from vectorplot.pictures.banded_surfaces import banded_surfaces
+
+        on_faces = joined_decals(*decals)
+        mine = np.flatnonzero(split.banded)
+        faces, layer, place = seen.faces.take(mine), split.layer[mine], seen.placement
+        bands, off = pipeline.run(
+            "surface bands", banded_surfaces, seen.view, lighting, faces, layer, on_faces, place, tolerance_mm
+        )
+        pipeline.measured("surface bands", "of 255", lambda: off)
+        # What lies on a face comes right after it; paper comes first.
+        leader = np.maximum.accumulate(np.where(painted.after >= 0, np.arange(len(painted.after)), -1))
+        below = -1 - int(split.layer.max(initial=0))
+        after = np.where(leader >= 0, -split.layer[~split.banded][painted.after[leader]], below)
+        return stacked([bands, replace(painted, after=after)])
     is_face = (painted.after >= 0) & (np.diff(painted.after, prepend=-1) != 0)
     return replace(painted, after=np.where(is_face, np.append(whole, -1)[painted.after], -1))
+
+
+@dataclass(frozen=True, eq=False)
+class _Split:
+    """Which polygons (n,) are painted in bands, the layers that they are in, and numbers, alike for those that follow
+    each other in one plane."""
+
+    banded: Bools
+    layer: Ints
+    unit: Ints
+
+
+def _layers(seen: VisiblePolygons, lighting: Lighting) -> _Split | None:
+    """The layers of what is seen, and what of it may be painted in bands of equal shade; None where nothing may, or too
+    much lies on one another."""
+    view, faces = seen.view, seen.faces
+    banded = seen.smooth[view.face_item] & smooth_faces(view, lighting.normals)
+    banded = (banded & np.array([may_have_bands(item) for item in seen.scene.items])[view.shown_item])[faces.source]
+    plane = np.where(banded, -1, lighting.plane[faces.source])
+    new = np.append(True, banded[1:] | (plane[1:] != plane[:-1]))[: len(plane)]
+    unit = np.cumsum(new) - 1
+    layer = picture_layers(faces, unit, view.tolerance) if banded.any() else None
+    return None if layer is None else _Split(banded, layer, unit)
 
 
 def _decals(
@@ -419,9 +465,10 @@ def _fills(
     laid: tuple[Overlay, ...],
     overlays: tuple[Overlay, ...],
     page: Page,
-    united: Ints | None,
+    plane: Ints,
 ) -> Overlay:
-    """The polygons of the picture on the page, with what lies on them and what is painted between them."""
+    """The polygons of the picture on the page, with what lies on them and what is painted between them. plane (n,):
+    polygons that follow each other with one number may become one."""
     view, faces = seen.view, seen.faces
     item = view.face_item[faces.source]
     opacity = opacities(seen.scene.items)[view.shown_item[faces.source]]
@@ -453,7 +500,6 @@ def _fills(
     if not pipeline.calls_for("visible fills"):
         from vectorplot.drawing.fill_visibility import flattened
 
-        plane = (lighting.plane if united is None else united)[faces.source]
         world = seen.placement.page_from_world
         with_decals = flattened(fills, laid, world, plane)
     every, below = stacked([with_decals, *overlays]), background(seen.scene, page)

@@ -26,7 +26,7 @@ from vectorplot.drawing.hatching import (
     toned_regions,
 )
 from vectorplot.drawing.strokes import concatenated
-from vectorplot.effects.shadow_casters import FacePlanes, light_system
+from vectorplot.effects.shadow_casters import FacePlanes, light_system, light_views
 from vectorplot.features.edge_splitting import Allowed, Criterion
 from vectorplot.features.nearest import feet_on_triangles
 from vectorplot.geometry import intervals, ragged
@@ -38,7 +38,6 @@ from vectorplot.geometry.component_arrays import dot
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.records import IN_COLUMNS, Elements
 from vectorplot.geometry.records import joined as joined_records
-from vectorplot.geometry.rotations import look_rotation
 from vectorplot.geometry.vectors import cross, norm
 from vectorplot.pictures.fills import (
     coloured,
@@ -71,7 +70,7 @@ from vectorplot.shading.shaded_faces import (
     shows_inside,
 )
 from vectorplot.shading.shadow_rays import blocked_exactly
-from vectorplot.tolerances import HATCH_GAP_MM, NEAR_OF_DISTANCE, ROUNDING, SAME_PLANE_SINE
+from vectorplot.tolerances import HATCH_GAP_MM, ROUNDING, SAME_PLANE_SINE
 from vectorplot.visibility.painter.image_faces import drawn_faces
 from vectorplot.visibility.polyhedra.hidden_lines import SLIVER, Segments, visible_parts
 from vectorplot.visibility.polyhedra.lines import inside, near_plane, window_planes
@@ -682,7 +681,7 @@ def _shadowed(view: View, light: Light, pieces: Pieces) -> tuple[Ints, Floats, F
     """Where something keeps a light from pieces: which, and the parameters between which it does."""
     gap = np.minimum(SLIVER * view.tolerance / np.maximum(norm((pieces.end - pieces.start).T), view.tolerance), 1.0)
     lit = [(np.zeros(0, dtype=np.intp), np.zeros(0), np.zeros(0))]
-    for image in _light_views(view, light):
+    for image in light_views(view, light_system(view, light)):
         start, end = matmul(image.turn, pieces.start), matmul(image.turn, pieces.end)
         low, high = inside(image.planes, start, end)
         which = np.flatnonzero(low < high)
@@ -695,41 +694,6 @@ def _shadowed(view: View, light: Light, pieces: Pieces) -> tuple[Ints, Floats, F
     of, low, high = (np.concatenate(column) for column in zip(*lit, strict=True))
     of, low, high = intervals.union(of, low, high, gap)
     return intervals.complement(len(pieces), of, low, high, gap)
-
-
-@dataclass(frozen=True, eq=False)
-class LightView:
-    """What a light sees, as a camera without twist; turn (3,3): from the coordinates of the picture's view to those of
-    this one; planes (p,4): what it sees is on the positive side of these."""
-
-    view: View
-    turn: Floats
-    planes: Floats
-
-
-def _light_views(view: View, light: Light) -> list[LightView]:
-    """The images of a light of the scene: one, or six in a cube about a lamp that stands in the midst of the scene."""
-    system = light_system(view, light)
-    found = []
-    for back in [system.position] if system.parallel else [-axes[2] for axes in system.axes]:
-        turn = np.ascontiguousarray(look_rotation(back).T)
-        eye = None if system.parallel else matmul(turn, system.position)
-        focus = 1.0 if eye is None else max(float(eye[2]), 1.0)
-        seen = replace(
-            view,
-            axes=matmul(turn, view.axes),
-            points=matmul(turn, view.points),
-            eye=eye,
-            target=np.zeros(3),
-            focus=focus,
-            near=-np.inf if eye is None else NEAR_OF_DISTANCE,
-        )
-        planes = near_plane(seen)
-        if system.windowed:
-            corner = np.full(2, focus)
-            planes = np.concatenate([planes, window_planes(seen, -corner, corner)])
-        found.append(LightView(seen, turn, planes))
-    return found
 
 
 # How dark places are that lie on a surface, beside the faces that stand for it.

@@ -30,7 +30,15 @@ from vectorplot.pictures.fills import background as background_of
 from vectorplot.pictures.lines import PEN, LineOverlay, places_beside_faces
 from vectorplot.pictures.options import SHADOWS, check_letters, check_options
 from vectorplot.pictures.pipeline import Pipeline, StageReport, stoppable
-from vectorplot.pictures.plan import accuracy_of_paint, has_bodies, plan_bodies, plan_paint, with_accuracy
+from vectorplot.pictures.plan import (
+    accuracy_of_paint,
+    has_banded_surfaces,
+    has_bodies,
+    plan_bodies,
+    plan_paint,
+    plan_surface_bands,
+    with_accuracy,
+)
 from vectorplot.pictures.prepared_scene import Legend, Paper, prepared_scene, room_for_labels, titled
 from vectorplot.pictures.promises import PAINTING, promised
 from vectorplot.scene.added_lines import with_default_lines
@@ -274,8 +282,9 @@ def paint(
     legend = Legend(sheet, bar, scene.scale_bar, text)
     sheet = legend.room
     stages = with_accuracy(plan_paint(scene, shadows, fills, kinds), accuracy_of_paint(tolerance_mm))
-    if smooth and fills == "painted" and subject.chart is None and has_bodies(scene) and not aura_mm:
-        stages = plan_bodies(stages)
+    if smooth and fills == "painted" and subject.chart is None and not aura_mm:
+        stages = plan_surface_bands(stages) if has_banded_surfaces(scene) else stages
+        stages = plan_bodies(stages) if has_bodies(scene) else stages
     pipeline = Pipeline(stages, explain, progress, threads)
     projection = projection_of(subject.camera, scene.bounds)
     # Lines belong to each item, polygons to what is seen.

@@ -308,19 +308,44 @@ def is_whole(item: Item) -> bool:
 
 
 def has_bodies(scene: Scene) -> bool:
-    """Whether bands of shade can show some of a scene, in white light that does not fade, and all else is opaque, no
-    mirror, and of no group."""
-    if scene.exposure == "fitted" or not all(light.colour == "white" and not light.fading for light in scene.lights):
+    """Whether bands of shade can show some bodies of a scene, in white light that does not fade, and all else is
+    opaque, no mirror, and of no group."""
+    if not _has_plain_light(scene):
         return False
     drawn = [item for item in scene.items if not is_annotation(item)]
     whole = [is_whole(item) for item in drawn]
     return any(whole) and all(own or _is_plain(item) for item, own in zip(drawn, whole, strict=True))
 
 
+def has_banded_surfaces(scene: Scene) -> bool:
+    """Whether bands of shade can show some smooth surfaces of a scene, as has_bodies."""
+    drawn = [item for item in scene.items if not is_annotation(item)]
+    smooth = any(not isinstance(item.shape, Mesh) and may_have_bands(item) for item in drawn)
+    return smooth and _has_plain_light(scene) and all(map(_is_plain, drawn))
+
+
+def may_have_bands(item: Item) -> bool:
+    """Whether bands of shade can show an item, if it is smooth: it has one colour everywhere."""
+    return not item.patterns and item.fields is None and item.face_looks is None
+
+
+def _has_plain_light(scene: Scene) -> bool:
+    white = all(light.colour == "white" and not light.fading for light in scene.lights)
+    return white and scene.exposure != "fitted"
+
+
 def _is_plain(item: Item) -> bool:
     plain = item.material.opacity >= 1.0 and item.material.refraction == 1.0 and item.hides
     mirrors = item.material.is_mirror and isinstance(item.shape, Mesh)
     return plain and not (mirrors or item.group or item.curves.slices)
+
+
+def plan_surface_bands(stages: Sequence[Stage]) -> tuple[Stage, ...]:
+    """The stages of painting, with those of smooth surfaces in bands before the one of all other polygons."""
+    at = [stage.name for stage in stages].index("shades")
+    layers = Stage("layers", "what covers nothing else in its layer may come in any order")
+    bands = Stage("surface bands", "smooth surfaces, layer by layer, in bands of equal shade (--tolerance)")
+    return (*stages[:at], layers, *stages[at:], bands)
 
 
 def plan_bodies(stages: Sequence[Stage]) -> tuple[Stage, ...]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -20,15 +20,18 @@ from vectorplot.geometry.vectors import component_sum, cross, norm, normalize
 from vectorplot.scene.item import Item
 from vectorplot.scene.labels import (
     DEFAULT_SIZE_MM,
+    IN_WORLD,
+    MEASURE,
     Along,
     AtVertex,
     BesidePoint,
     Label,
+    Measures,
     OnCurve,
     OnPage,
     capital_height,
 )
-from vectorplot.scene.scene import Scene
+from vectorplot.scene.scene import Scene, together
 from vectorplot.tolerances import ROUNDING
 
 # Arrows and axes: curves in space, hidden like any others, and labels at them.
@@ -275,7 +278,8 @@ def dimension(
     offset : (3,) array_like of float
         From these points to the dimension line.
     text : str, optional
-        What it says: the distance of the points where nothing is given.
+        What it says, with <> for the measure and <0.1> for other lengths, as in "<> H7" or "4x <> ±<0.1>": the distance
+        of the points where nothing is given.
     size_mm : float or str
         Of the letters.
     gap, beyond : float, optional
@@ -312,7 +316,7 @@ def dimension(
     behind = BEYOND if beyond is None else beyond / reach
     if not (0.0 <= before < 1.0 and 0.0 <= behind < np.inf):
         raise InputError("dimension: expected a gap before the dimension line, and a length of 0 or more beyond it")
-    said = f"{long:g}" if text is None else text
+    said, measured = _said(text, MEASURE, long)
     lines = [
         Line.through(one + before * off, one + (1.0 + behind) * off),
         Line.through(other + before * off, other + (1.0 + behind) * off),
@@ -321,7 +325,7 @@ def dimension(
     names = [f"extension {said} 1", f"extension {said} 2", f"dimension {said}"]
     group = f"dimension {said} {_place(one)} {_place(other)} {_place(off)}"
     items = tuple(thin_line(name, line, group) for name, line in zip(names, lines, strict=True))
-    return Scene(items, labels=_measured(items[2].name, said, size_mm))
+    return Scene(items, labels=_measured(items[2].name, said, measured, size_mm))
 
 
 def angle(
@@ -344,7 +348,7 @@ def angle(
     radius : float
         Of the arc, in world units.
     text : str, optional
-        What it says: the angle in degrees where nothing is given.
+        What it says, with <> for the angle in degrees and its sign: that alone where nothing is given.
     size_mm : float or str
         Of the letters.
 
@@ -372,10 +376,12 @@ def angle(
         raise InputError("angle: two sides that are not in one line, and a positive radius are needed")
     begins = _angle_on(Circle(middle, radius, axis), middle, first)
     arc = Circle(middle, radius, axis, begins, begins + float(arctan2(sine, cosine)))
-    said = f"{np.degrees(arctan2(sine, cosine)):.4g}°" if text is None else text
+    degrees = Measures().angle(float(np.degrees(arctan2(sine, cosine))))
+    measured = f"{MEASURE}°" if text is None else text.replace(MEASURE, f"{MEASURE}°")
+    said = measured.replace(MEASURE, degrees)
     item = thin_line(f"angle {said}", arc)
     # Letters along an arc that is hardly larger than they are would fall over each other.
-    label = Label(said, OnCurve(item.name, 0.5), item.name, size_mm)
+    label = Label(said, OnCurve(item.name, 0.5), item.name, size_mm, measured=measured if MEASURE in measured else "")
     return Scene((item,), labels=(*_heads(item.name, size_mm), label))
 
 
@@ -389,7 +395,7 @@ def radius(
     centre, point : (3,) array_like of float
         In the world.
     text : str, optional
-        What it says: R and the radius where nothing is given.
+        What it says, with <> for R and the radius: these alone where nothing is given.
     size_mm : float or str
         Of the letters.
 
@@ -410,10 +416,10 @@ def radius(
     'R5'
     """
     middle, outer = vector("radius: centre", centre), vector("radius: a point", point)
-    said = f"R{_distance('radius', middle, outer):g}" if text is None else text
+    said, measured = _said(text, f"R{MEASURE}", _distance("radius", middle, outer))
     item = thin_line(f"radius {said}", Line.through(middle, outer))
     head = Label("", OnCurve(item.name), f"{item.name} end", size_mm, mark="arrow")
-    return Scene((item,), labels=(head, Label(said, Along(item.name), item.name, size_mm, "above")))
+    return Scene((item,), labels=(head, Label(said, Along(item.name), item.name, size_mm, "above", measured=measured)))
 
 
 def diameter(
@@ -428,7 +434,7 @@ def diameter(
     point : (3,) array_like of float
         One of its ends, on the circle.
     text : str, optional
-        What it says: ø and the diameter where nothing is given.
+        What it says, with <> for ø and the diameter, as in "<> H7": these alone where nothing is given.
     size_mm : float or str
         Of the letters.
 
@@ -449,9 +455,9 @@ def diameter(
     'ø10'
     """
     middle, outer = vector("diameter: centre", centre), vector("diameter: a point", point)
-    said = f"ø{2.0 * _distance('diameter', middle, outer):g}" if text is None else text
+    said, measured = _said(text, f"ø{MEASURE}", 2.0 * _distance("diameter", middle, outer))
     item = thin_line(f"diameter {said}", Line.through(2.0 * middle - outer, outer))
-    return Scene((item,), labels=_measured(item.name, said, size_mm))
+    return Scene((item,), labels=_measured(item.name, said, measured, size_mm))
 
 
 def leader(point: ArrayLike, elbow: ArrayLike, text: str, *, size_mm: float | str = DEFAULT_SIZE_MM) -> Scene:
@@ -570,9 +576,423 @@ def centre_mark(
     return Scene(tuple(Item(name, one.items[0].shape, "black", lines=("centre",), group=group) for name, one in marks))
 
 
-def _measured(name: str, said: str, size_mm: float | str) -> tuple[Label, ...]:
+# Dimensions in chains, from a base line, and along a scale; chamfers and threads.
+#
+# Source: ISO 129-1 (arrangement of dimensions), ISO 6410-1 (threads).
+
+STEP = 0.7
+"""From one dimension line to the next of those from a base line, in offsets, where nothing is said."""
+
+ORDINATE_BEYOND = 1.2
+"""How far the lines beside the measures of a running dimension reach beyond the dimension line, in offsets."""
+
+JOG = 0.35
+"""What part of these lines leads aside where they stand apart."""
+
+THREAD_TURN = 1.5 * np.pi
+"""The arc that stands for a thread seen along its axis: three quarters of a circle."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Row:
+    """Points that are dimensioned along one direction: points (n,3); along (3,) of length 1, from the first to the
+    last; out (3,) of length 1 towards the dimension line; feet (n,3) of their extension lines on that."""
+
+    points: Floats
+    along: Floats
+    out: Floats
+    feet: Floats
+    reach: float
+
+    @classmethod
+    def of(cls, what: str, points: ArrayLike, offset: ArrayLike) -> _Row:
+        """The row of some points, an offset from the first of them to the dimension line. Errors: InputError."""
+        places = np.array([vector(f"{what}: a point", point) for point in np.asarray(points, dtype=np.float64)])
+        off = vector(f"{what}: offset", offset)
+        reach = float(norm(off))
+        if len(places) < 2 or not reach > 0.0:
+            raise InputError(f"{what}: two points or more and an offset are needed")
+        out = off / reach
+        way = places[-1] - places[0]
+        way = way - float(matmul(way, out)) * out
+        if not float(norm(way)) > 0.0:
+            raise InputError(f"{what}: the first and the last point are in line with the offset")
+        along = normalize(way)
+        heights = matmul(places - places[0], out)
+        feet = places + (reach - heights)[:, None] * out
+        if not (heights < reach).all():
+            raise InputError(f"{what}: a point is beyond the dimension line")
+        # All in the plane through the first point.
+        aside = cross(along, out)
+        feet = feet - matmul(feet - feet[0], aside)[:, None] * aside
+        return cls(places, along, out, feet, reach)
+
+    @property
+    def places(self) -> Floats:
+        """(n,) how far along each is from the first."""
+        return matmul(self.points - self.points[0], self.along)
+
+    def lines(self, one: int, other: int, level: float, gap: float | None, beyond: float | None) -> tuple[Line, ...]:
+        """Two extension lines and the dimension line, so far beyond that of the row."""
+        found = []
+        ends = self.feet[[one, other]] + level * self.out
+        for k, end in zip((one, other), ends, strict=True):
+            start = end - float(matmul(end - self.points[k], self.out)) * self.out
+            far = float(matmul(end - start, self.out))
+            before = SHORT * self.reach if gap is None else gap
+            behind = BEYOND * self.reach if beyond is None else beyond
+            if not (0.0 <= before < far and 0.0 <= behind < np.inf):
+                raise InputError("expected a gap before the dimension line, and a length of 0 or more beyond it")
+            found.append(Line.through(start + before * self.out, end + behind * self.out))
+        return (*found, Line.through(*ends))
+
+    def dimension(
+        self, one: int, other: int, level: float, size_mm: float | str, gap: float | None, beyond: float | None
+    ) -> Scene:
+        """The dimension between two of the points, so far beyond that of the row."""
+        first, second, line = self.lines(one, other, level, gap, beyond)
+        said, measured = _said(None, MEASURE, abs(float(self.places[other] - self.places[one])))
+        group = f"dimension {said} {_place(self.points[one])} {_place(self.points[other])} {_place(self.out)} {level:g}"
+        names = (f"extension {said} 1", f"extension {said} 2", f"dimension {said}")
+        named = zip(names, (first, second, line), strict=True)
+        items = tuple(thin_line(name, curve, group) for name, curve in named)
+        return Scene(items, labels=_measured(items[2].name, said, measured, size_mm))
+
+
+def chain_dimension(
+    points: ArrayLike,
+    offset: ArrayLike,
+    *,
+    size_mm: float | str = DEFAULT_SIZE_MM,
+    gap: float | None = None,
+    beyond: float | None = None,
+) -> Scene:
+    """Dimensions from each point to the next one, all in one line.
+
+    Parameters
+    ----------
+    points : (n, 3) array_like of float
+        In the world, two or more, in their order along the line.
+    offset : (3,) array_like of float
+        From the first point to the dimension line, which runs across it, from the first to the last point.
+    size_mm : float or str
+        Of the letters.
+    gap, beyond : float, optional
+        See dimension.
+
+    Returns
+    -------
+    Scene
+        Thin lines, hidden like any other curves, and their labels, to be drawn together with others.
+
+    Raises
+    ------
+    InputError
+        For fewer points, for a first and a last one in line with the offset, for points beyond the dimension line; and
+        as in dimension.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> chain = vp.chain_dimension([(0, 0, 0), (10, 0, 0), (25, 0, 2)], (0, 0, -8))
+    >>> [label.text for label in chain.labels if label.text]
+    ['10', '15']
+    """
+    row = _Row.of("chain_dimension", points, offset)
+    return together([row.dimension(k, k + 1, 0.0, size_mm, gap, beyond) for k in range(len(row.points) - 1)])
+
+
+def baseline_dimension(
+    points: ArrayLike,
+    offset: ArrayLike,
+    *,
+    step: float | None = None,
+    size_mm: float | str = DEFAULT_SIZE_MM,
+    gap: float | None = None,
+    beyond: float | None = None,
+) -> Scene:
+    """Dimensions from the first point to each of the others, one outside of the other.
+
+    Parameters
+    ----------
+    points, offset, size_mm, gap, beyond : array_like, array_like, float, float and float
+        See chain_dimension.
+    step : float, optional
+        From one dimension line to the next, in world units; where None 0.7 times the offset.
+
+    Returns
+    -------
+    Scene
+        See chain_dimension.
+
+    Raises
+    ------
+    InputError
+        See chain_dimension; for a step that is not positive.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> base = vp.baseline_dimension([(0, 0, 0), (10, 0, 0), (25, 0, 0)], (0, 0, -8))
+    >>> [label.text for label in base.labels if label.text]
+    ['10', '25']
+    """
+    row = _Row.of("baseline_dimension", points, offset)
+    apart = STEP * row.reach if step is None else step
+    if not 0.0 < apart < np.inf:
+        raise InputError(f"baseline_dimension: a step of {apart:g}: expected a positive length")
+    levels = [(k, (k - 1) * apart) for k in range(1, len(row.points))]
+    return together([row.dimension(0, k, level, size_mm, gap, beyond) for k, level in levels])
+
+
+def ordinate_dimension(
+    points: ArrayLike,
+    offset: ArrayLike,
+    *,
+    apart: float = 0.0,
+    size_mm: float | str = DEFAULT_SIZE_MM,
+    gap: float | None = None,
+    beyond: float | None = None,
+) -> Scene:
+    """A running dimension: how far each point is from the first one, written at its extension line.
+
+    Parameters
+    ----------
+    points, offset, size_mm, gap : array_like, array_like, float and float
+        See chain_dimension.
+    apart : float
+        The extension lines of points that are closer to each other lead so far apart beyond the dimension line, in
+        world units; on technical sheets as far as letters need.
+    beyond : float, optional
+        How far the extension lines go on beyond the dimension line, beside the measures; where None 1.2 times the
+        offset.
+
+    Returns
+    -------
+    Scene
+        See chain_dimension. The dimension line has an arrowhead at every point but the first, where it has a dot.
+
+    Raises
+    ------
+    InputError
+        See chain_dimension; for a length apart that is negative.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> scale = vp.ordinate_dimension([(0, 0, 0), (10, 0, 0), (25, 0, 0)], (0, 0, -8))
+    >>> [label.text for label in scale.labels if label.text]
+    ['0', '10', '25']
+    """
+    row = _Row.of("ordinate_dimension", points, offset)
+    if not 0.0 <= apart < np.inf:
+        raise InputError(f"ordinate_dimension: {apart:g} apart: expected a length of 0 or more")
+    far = ORDINATE_BEYOND * row.reach if beyond is None else beyond
+    before = SHORT * row.reach if gap is None else gap
+    if not 0.0 < far < np.inf or not 0.0 <= before < row.reach:
+        raise InputError(
+            "ordinate_dimension: expected a gap before the dimension line, and a positive length beyond it"
+        )
+    places = row.places
+    group = f"ordinate {_place(row.points[0])} {_place(row.points[-1])} {_place(row.out)}"
+    moved = spread(places, apart) - places
+    items: list[Item] = []
+    labels: list[Label] = []
+    base = "ordinate 0"
+    for k, (place, foot) in enumerate(zip(places.tolist(), row.feet, strict=True)):
+        said = Measures().length(abs(place))
+        name = f"ordinate {k} {said}"
+        start = foot - float(matmul(foot - row.points[k], row.out)) * row.out
+        bend = foot + JOG * far * row.out + float(moved[k]) * row.along
+        items.append(thin_line(f"{name} extension", Line.through(start + before * row.out, foot), group))
+        items.append(thin_line(f"{name} lead", Line.through(foot, bend), group))
+        items.append(thin_line(f"{name} measure", Line.through(bend, bend + (1.0 - JOG) * far * row.out), group))
+        measure = Along(items[-1].name)
+        labels.append(Label(said, measure, name, size_mm, "above", measured=f"<{abs(place)!r}>"))
+        if place == 0.0:
+            labels.append(Label("", OnCurve(items[-2].name, 0.0), f"{base} origin", size_mm, mark="dot"))
+        else:
+            items.append(thin_line(f"{name} line", Line.through(row.feet[0], foot), group))
+            labels.append(Label("", OnCurve(items[-1].name), f"{name} end", size_mm, mark="arrow"))
+    return together([Scene(tuple(items), labels=tuple(labels))])
+
+
+def spread(places: Floats, apart: float) -> Floats:
+    """(n,) places on a line that are so far apart at least, in the same order, each as near as that allows to where it
+    was: clusters stand about their middles."""
+    order = np.argsort(places, kind="stable")
+    groups: list[tuple[float, int]] = []
+    for place in places[order].tolist():
+        middle, count = place, 1
+        while groups and middle - 0.5 * (count - 1) * apart < groups[-1][0] + 0.5 * (groups[-1][1] - 1) * apart + apart:
+            before, many = groups.pop()
+            middle = (before * many + middle * count) / (many + count)
+            count += many
+        groups.append((middle, count))
+    found = np.concatenate([middle + apart * (np.arange(count) - 0.5 * (count - 1)) for middle, count in groups])
+    result = np.empty_like(places)
+    result[order] = found
+    return result
+
+
+def chamfer(
+    start: ArrayLike,
+    end: ArrayLike,
+    elbow: ArrayLike,
+    text: str | None = None,
+    *,
+    size_mm: float | str = DEFAULT_SIZE_MM,
+) -> Scene:
+    """The dimension of a chamfer: a leader to the middle of its edge, with its width and angle.
+
+    Parameters
+    ----------
+    start, end : (3,) array_like of float
+        Of the sloping edge, as one sees it from the side; its sides run along two of the coordinate axes.
+    elbow : (3,) array_like of float
+        Where the text is.
+    text : str, optional
+        What it says, with <> for the width: the width and the angle where nothing is given.
+    size_mm : float or str
+        Of the letters.
+
+    Returns
+    -------
+    Scene
+        A thin line, hidden like any other curve, and its labels, to be drawn together with others.
+
+    Raises
+    ------
+    InputError
+        For an edge along a coordinate axis, or along none of the planes of two of them.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> vp.chamfer((0, 0, 2), (2, 0, 0), (8, 0, 8)).labels[-1].text
+    '2 × 45°'
+    """
+    one, other = vector("chamfer: start", start), vector("chamfer: end", end)
+    sides = np.sort(np.abs(other - one))[::-1]
+    if not (sides[1] > 0.0 and sides[2] == 0.0):
+        raise InputError("chamfer: expected an edge that slopes along two of the coordinate axes")
+    degrees = float(np.degrees(arctan2(sides[1], sides[0])))
+    usual = f"<{float(sides[1])!r}>"
+    measured = f"{usual} × {Measures().angle(degrees)}°" if text is None else text.replace(MEASURE, usual)
+    found = leader(0.5 * (one + other), elbow, _written(measured, Measures(), ""), size_mm=size_mm)
+    head, written = found.labels
+    return replace(found, labels=(head, replace(written, measured=measured)))
+
+
+def thread(start: ArrayLike, end: ArrayLike, radius: float) -> Scene:
+    """The thread of a bolt or a screw: thin lines at its root, and three quarters of a thin circle.
+
+    Parameters
+    ----------
+    start, end : (3,) array_like of float
+        From where to where it goes along its axis; the circle is at the start.
+    radius : float
+        Of the root, in world units.
+
+    Returns
+    -------
+    Scene
+        Thin lines to be drawn on a technical sheet, where nothing hides them in views along the axis and across it.
+
+    Raises
+    ------
+    InputError
+        For points in one place, and a radius that is not positive.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> len(vp.thread((0, 0, 0), (0, 0, 20), 3.3))
+    5
+    """
+    return _thread("thread", start, end, radius)
+
+
+def threaded_hole(start: ArrayLike, end: ArrayLike, radius: float) -> Scene:
+    """The thread of a tapped hole: thin lines at its major diameter, and three quarters of a thin circle.
+
+    Parameters
+    ----------
+    start, end : (3,) array_like of float
+        From where to where it goes along its axis; the circle is at the start.
+    radius : float
+        The larger one of the thread, in world units.
+
+    Returns
+    -------
+    Scene
+        Thin lines, hidden like any other curves: dashed in views from the side, in full in sections.
+
+    Raises
+    ------
+    InputError
+        For points in one place, and a radius that is not positive.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> len(vp.threaded_hole((0, 0, 0), (0, 0, 20), 4.0))
+    5
+    """
+    return _thread("threaded hole", start, end, radius)
+
+
+def _thread(what: str, start: ArrayLike, end: ArrayLike, radius: float) -> Scene:
+    """Two pairs of thin lines in planes through the axis, and an arc."""
+    one, other = vector(f"{what}: start", start), vector(f"{what}: end", end)
+    _distance(what, one, other)
+    if not 0.0 < radius < np.inf:
+        raise InputError(f"{what}: a positive radius is needed")
+    along = normalize(other - one)
+    first = normalize(cross(along, np.eye(3)[int(np.argmin(np.abs(along)))]))
+    items = []
+    for number, way in enumerate((first, cross(along, first)), start=1):
+        group = f"{what} {number} {_place(one)} {_place(other)} {radius:g}"
+        for sign in (1.0, -1.0):
+            aside = sign * radius * way
+            items.append(thin_line(f"{what} line", Line.through(one + aside, other + aside), group))
+    begins = _angle_on(Circle(one, radius, along), one, first)
+    arc = Circle(one, radius, along, begins, begins + THREAD_TURN)
+    items.append(thin_line(f"{what} arc", arc, f"{what} arc {_place(one)} {_place(other)} {radius:g}"))
+    return together([Scene((item,)) for item in items])
+
+
+def _measured(name: str, said: str, measured: str, size_mm: float | str) -> tuple[Label, ...]:
     """Arrowheads at both ends of a curve, and a text along it."""
-    return (*_heads(name, size_mm), Label(said, Along(name), name, size_mm, "above"))
+    return (*_heads(name, size_mm), Label(said, Along(name), name, size_mm, "above", measured=measured))
+
+
+def _said(text: str | None, usual: str, long: float) -> tuple[str, str]:
+    """What a dimension says of a length, and the same with <> for the measure; the latter is nothing for texts without
+    one. usual: the measure with its sign, which <> stands for in a text."""
+    measured = usual if text is None else text.replace(MEASURE, usual)
+    if MEASURE not in measured and not IN_WORLD.search(measured):
+        return measured, ""
+    return _written(measured, Measures(), Measures().length(long)), measured
+
+
+def _written(measured: str, measures: Measures, measure: str) -> str:
+    """A text in which <> and lengths in the world are written as measures."""
+    return IN_WORLD.sub(lambda found: measures.length(float(found[1])), measured.replace(MEASURE, measure))
+
+
+def measured_label(label: Label, items: Mapping[str, Item], measures: Measures) -> Label:
+    """The label with the measure that it tells of, as measures write it: of a line its length, of an arc its angle."""
+    shape = items[label.at.item].shape if isinstance(label.at, Along | OnCurve) and label.at.item in items else None
+    if not label.measured:
+        return label
+    if is_curve(shape) and f"{MEASURE}°" in label.measured:
+        measure = measures.angle(float(np.degrees(abs(shape.end - shape.start))))
+    elif is_curve(shape):
+        measure = measures.length(float(norm(np.diff(shape.points(np.array([shape.start, shape.end])), axis=0)[0])))
+    else:
+        measure = ""
+    return replace(label, text=_written(label.measured, measures, measure))
 
 
 def _heads(name: str, size_mm: float | str) -> tuple[Label, ...]:
@@ -626,12 +1046,14 @@ def label_anchors(scene: Scene) -> LabelAnchors:
     no curve or no polyhedron.
     """
     items = {item.name: item for item in reversed(scene.items)}
+    measures = Measures() if scene.measures is None else scene.measures
+    labels = tuple(measured_label(label, items, measures) for label in scene.labels)
     courses = tuple(
-        _trace(label, label.at, items) if isinstance(label.at, (Along, OnCurve)) else None for label in scene.labels
+        _trace(label, label.at, items) if isinstance(label.at, (Along, OnCurve)) else None for label in labels
     )
-    found = zip(scene.labels, courses, strict=True)
+    found = zip(labels, courses, strict=True)
     points = [_point(label, items) if course is None else _part(label, course) for label, course in found]
-    return LabelAnchors(scene.labels, np.array(points, dtype=np.float64).reshape(-1, 3), courses)
+    return LabelAnchors(labels, np.array(points, dtype=np.float64).reshape(-1, 3), courses)
 
 
 def _point(label: Label, items: dict[str, Item]) -> Floats:

@@ -245,11 +245,13 @@ AXES = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
 class Explosion:
     """The parts of a scene are moved apart along an axis, as `vp.exploded` does it, when the scene is shown.
 
-    axis: the first part stays, the others move along it; factor: see `vp.exploded`.
+    axis: the first part stays, the others move along it; factor: see `vp.exploded`; moves: instead, how far each of
+    some parts is moved, by the names of items or groups.
     """
 
     axis: str | tuple[float, float, float] = "z"
     factor: float = 1.5
+    moves: tuple[tuple[str, Vector], ...] = ()
 
     def __post_init__(self) -> None:
         _ = self.way
@@ -266,8 +268,10 @@ class Explosion:
 
         matrix: (4, 4) rows 0 to 2: rotation, scale and translation.
         """
-        x, y, z = (matmul(np.asarray(matrix, dtype=np.float64)[:3, :3], self.way)).tolist()
-        return replace(self, axis=(x, y, z))
+        linear = np.asarray(matrix, dtype=np.float64)[:3, :3]
+        x, y, z = matmul(linear, self.way).tolist()
+        moved = [(name, matmul(linear, np.array(step)).tolist()) for name, step in self.moves]
+        return replace(self, axis=(x, y, z), moves=tuple((name, (a, b, c)) for name, (a, b, c) in moved))
 
 
 def direction_of(axis: str | Sequence[float] | ArrayLike) -> Floats:

@@ -2,39 +2,49 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Bools, Floats
-from vectorplot.curves.curve import is_curve
+from vectorplot.curves.curve import is_curve, vector
 from vectorplot.curves.families import Line
 from vectorplot.errors import InputError
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.rotations import axis_frame, shift_matrix
+from vectorplot.geometry.vectors import norm
 from vectorplot.scene.annotations import leader_tips
 from vectorplot.scene.cuts import direction_of
 from vectorplot.scene.extent import smooth_bounds
 from vectorplot.scene.item import Item
 from vectorplot.scene.scene import Scene
 from vectorplot.tolerances import ZERO_OF_EXTENT
+from vectorplot.words import unknown
 
 PARTS_AT_ONCE = 1 << 9
 """So many parts are looked at together for one that another stands over: it is mostly among the last ones."""
 
 
-def exploded(scene: Scene, axis: str | ArrayLike = "z", factor: float = 1.5, *, traces: bool = True) -> Scene:
-    """The scene with its parts moved apart along an axis, in their order along it.
+def exploded(
+    scene: Scene,
+    axis: str | ArrayLike | Mapping[str, ArrayLike] = "z",
+    factor: float = 1.5,
+    *,
+    traces: bool = True,
+) -> Scene:
+    """The scene with its parts moved apart along an axis, in their order along it, or each along its own direction.
 
     Parameters
     ----------
     scene : Scene
         Its items are the parts, those of one group one part; curves that are in no group with a body stay, if there
         are bodies, but for leaders: these go with the part that they point at.
-    axis : {"x", "y", "z"} or (3,) array_like of float
-        The first part stays, the others move along it.
+    axis : {"x", "y", "z"}, (3,) array_like of float, or mapping of str to (3,) array_like of float
+        The first part stays, the others move along it. Or how far each of some parts is moved, in world units, by the
+        names of items or groups; all others stay.
     factor : float
         Between neighbours is room for this times a part of mean length, less one: at 1 they touch; 1 or more.
     traces : bool
@@ -48,7 +58,7 @@ def exploded(scene: Scene, axis: str | ArrayLike = "z", factor: float = 1.5, *, 
     Raises
     ------
     InputError
-        For another axis, and a factor out of range.
+        For another axis, and a factor out of range; for moves of parts that are not there, or that are not finite.
     TypeError
         For what is no scene.
 
@@ -71,6 +81,8 @@ def exploded(scene: Scene, axis: str | ArrayLike = "z", factor: float = 1.5, *, 
     """
     if not isinstance(scene, Scene):
         raise TypeError(f"exploded takes a Scene, such as vectorplot.io.scene_of(parts), not {type(scene).__name__}")
+    if isinstance(axis, Mapping):
+        return _moved_apart(scene, axis, traces)
     way = direction_of(axis)
     if not 1.0 <= factor < np.inf:
         raise InputError(f"explode: a factor of {factor:g}: expected a finite number, 1 or more")
@@ -103,15 +115,48 @@ def exploded(scene: Scene, axis: str | ArrayLike = "z", factor: float = 1.5, *, 
             continue
         middle = boxes[key].mean(axis=0)
         foot = middle + (low - float(matmul(middle, way))) * way
-        line = Line.through(foot + start * way, foot + shifts[key] * way)
-        name = scene.items[parts[key][0]].name
-        items.append(Item(f"{name} trace", line, "black", lines=("trace",), occludes=False))
+        items.append(_trace(scene.items[parts[key][0]].name, foot + start * way, foot + shifts[key] * way))
     return replace(scene, items=tuple(items), explosion=None)
 
 
 def shown_apart(scene: Scene) -> Scene:
     """The scene with its parts moved apart, if it says so itself."""
-    return scene if scene.explosion is None else exploded(scene, scene.explosion.way, scene.explosion.factor)
+    said = scene.explosion
+    return scene if said is None else exploded(scene, dict(said.moves) if said.moves else said.way, said.factor)
+
+
+def _moved_apart(scene: Scene, moves: Mapping[str, ArrayLike], traces: bool) -> Scene:
+    """The scene with some of its parts moved, each by a vector of its own."""
+    parts: dict[str, list[int]] = {}
+    for number, item in enumerate(scene.items):
+        parts.setdefault(item.group or item.name, []).append(number)
+        if item.group:
+            parts.setdefault(item.name, []).append(number)
+    items, added = list(scene.items), []
+    zero = ZERO_OF_EXTENT * float(np.ptp(scene.bounds, axis=0).max())
+    boxes = {name: _box([scene.items[k] for k in which]) for name, which in parts.items() if name in moves}
+    owners = {name: _part_at(tip, boxes, zero) for name, tip in leader_tips(scene).items()}
+    for name, given in moves.items():
+        if name not in parts:
+            raise unknown("explode: item", name, tuple(parts))
+        step = vector("explode: a move", given)
+        for number in parts[name]:
+            items[number] = items[number].transformed(shift_matrix(*step))
+        for number, item in enumerate(scene.items):
+            if owners.get(item.name) == name:
+                items[number] = item.transformed(shift_matrix(*step))
+        if traces and float(norm(step)) > zero:
+            way = step / float(norm(step))
+            middle = boxes[name].mean(axis=0)
+            low = _spans([scene.items[k] for k in parts[name]], way[None])[0, 0]
+            foot = middle + (float(low) - float(matmul(middle, way))) * way
+            added.append(_trace(name, foot, foot + step))
+    return replace(scene, items=(*items, *added), explosion=None)
+
+
+def _trace(name: str, start: Floats, end: Floats) -> Item:
+    """The line on which a part was moved."""
+    return Item(f"{name} trace", Line.through(start, end), "black", lines=("trace",), occludes=False)
 
 
 def _box(items: list[Item]) -> Floats:

@@ -6,13 +6,15 @@ import math
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from decimal import ROUND_HALF_UP, Decimal
 from numbers import Real
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from vectorplot.errors import InputError
-from vectorplot.geometry.algebra import matmul
+from vectorplot.geometry.algebra import determinant, matmul
+from vectorplot.geometry.elementary import cbrt
 from vectorplot.scene.page import MM_PER, MM_PER_POINT, LatexLength
 from vectorplot.words import check_word
 
@@ -192,6 +194,10 @@ class Label:
     mark : {"none", "dot", "cross", "arrow", "tick"}
         What is drawn at the point: at a point of a curve also an arrowhead that points on, at its beginning out of it,
         or a tick across it.
+    measured : str
+        What it says instead, with <> for the measure of the curve that it names, as Measures of the scene write it:
+        the length of a line, or the degrees of an arc where ° follows; and <12.5> for a length in the world, as in
+        "<> ±<0.1>". Nothing where the text is no measure.
 
     Raises
     ------
@@ -213,6 +219,7 @@ class Label:
     place: str = "auto"
     hidden: str | None = None
     mark: str = "none"
+    measured: str = ""
 
     def __post_init__(self) -> None:
         if not isinstance(self.text, str):
@@ -256,7 +263,8 @@ class Label:
         Returns
         -------
         Label
-            What names a vertex, a curve or a place of the page stays as it is.
+            What names a vertex, a curve or a place of the page stays as it is. Lengths in a text of measures are larger
+            by the cube root of what volumes are larger by.
 
         Raises
         ------
@@ -269,10 +277,128 @@ class Label:
         >>> vp.Label("P", (1, 0, 0)).transformed([(2, 0, 0, 0), (0, 2, 0, 0), (0, 0, 2, 5), (0, 0, 0, 1)]).at
         (2.0, 0.0, 5.0)
         """
+        if self.measured:
+            larger = float(cbrt(abs(determinant(np.asarray(matrix, dtype=np.float64)[:3, :3]))))
+            told = IN_WORLD.sub(lambda found: f"<{larger * float(found[1])!r}>", self.measured)
+            return replace(replace(self, measured="").transformed(matrix), measured=told)
         if not isinstance(self.at, tuple):
             return self
         x, y, z = (matmul(np.asarray(matrix, dtype=np.float64)[:3], (*self.at, 1.0))).tolist()
         return replace(self, at=(x, y, z))
+
+
+# How measures are written.
+
+MEASURE = "<>"
+"""What stands for the measure in the text of a dimension."""
+
+IN_WORLD = re.compile(r"<([0-9.]+(?:e[-+]?[0-9]+)?)>")
+"""A length in the world in such a text."""
+
+MOST_DECIMALS = 9
+"""No measure has more decimals."""
+
+DIGITS = 12
+"""Measures are rounded to so many digits first, so that what is a half but for rounding errors is rounded upwards."""
+
+
+@dataclass(frozen=True)
+class Measures:
+    """How the measures of dimensions are written.
+
+    Parameters
+    ----------
+    decimals : int, optional
+        How many decimals lengths are rounded to, halves away from zero; where None six digits, as few as say it.
+    zeros : bool
+        Whether zeros at the end of the decimals are written.
+    comma : bool
+        Whether a comma stands before the decimals, and not a point.
+    per_unit : float
+        How many of the units that are written a unit of the world is.
+    leading : bool
+        Whether a zero stands before the decimals of what is less than 1, as it does but in inches by ASME Y14.5.
+
+    Raises
+    ------
+    InputError
+        For decimals that are not 0 to 9, and a unit that is not finite and positive.
+
+    Notes
+    -----
+    Angles have four digits, as few as say them.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> vp.Measures(decimals=2, zeros=True).length(12.5), vp.Measures(decimals=1, comma=True).length(0.25)
+    ('12.50', '0,3')
+    """
+
+    decimals: int | None = None
+    zeros: bool = False
+    comma: bool = False
+    per_unit: float = 1.0
+    leading: bool = True
+
+    def __post_init__(self) -> None:
+        if self.decimals is not None and not 0 <= self.decimals <= MOST_DECIMALS:
+            raise InputError(f"measures: {self.decimals} decimals: expected 0 to {MOST_DECIMALS}")
+        if not 0.0 < self.per_unit < math.inf:
+            raise InputError(f"measures: {self.per_unit:g} to a unit: expected a number that is finite and positive")
+
+    def length(self, world: float) -> str:
+        """The text of a length in the world.
+
+        Parameters
+        ----------
+        world : float
+            In units of the world.
+
+        Returns
+        -------
+        str
+            The number, without its unit.
+
+        Examples
+        --------
+        >>> import vectorplot as vp
+        >>> vp.Measures(decimals=3, zeros=True, per_unit=1 / 25.4, leading=False).length(12.7)
+        '.500'
+        """
+        value = world * self.per_unit
+        if self.decimals is None:
+            return self._written(f"{value:g}")
+        step = Decimal(1).scaleb(-self.decimals)
+        text = f"{Decimal(f'{value:.{DIGITS}g}').quantize(step, ROUND_HALF_UP):f}"
+        if not self.zeros and "." in text:
+            text = text.rstrip("0").removesuffix(".")
+        return self._written(text)
+
+    def angle(self, degrees: float) -> str:
+        """The text of an angle.
+
+        Parameters
+        ----------
+        degrees : float
+            As it is.
+
+        Returns
+        -------
+        str
+            The number, without a sign of degrees.
+
+        Examples
+        --------
+        >>> import vectorplot as vp
+        >>> vp.Measures(comma=True).angle(22.5)
+        '22,5'
+        """
+        return self._written(f"{degrees:.4g}")
+
+    def _written(self, text: str) -> str:
+        text = text if self.leading or not text.startswith("0.") else text[1:]
+        return text.replace(".", ",") if self.comma else text
 
 
 def renamed(label: Label, names: Mapping[str, str]) -> Label:

@@ -22,7 +22,7 @@ from vectorplot.geometry.rotations import Movable
 from vectorplot.scene.cuts import Cut, Explosion
 from vectorplot.scene.extent import bounds_of_surfaces, in_range, smooth_bounds
 from vectorplot.scene.item import Item
-from vectorplot.scene.labels import Label, renamed
+from vectorplot.scene.labels import Label, Measures, renamed
 from vectorplot.scene.light import Exposure, Light, check_exposure
 from vectorplot.scene.page import Page
 from vectorplot.scene.pens import DepthCue, PenOverrides
@@ -69,6 +69,8 @@ class Scene(Movable["Scene"]):
         The style, the pens and the dashes that the scene is drawn with.
     explosion : Explosion, optional
         Parts are moved apart where the scene is shown, before it is cut.
+    measures : Measures, optional
+        How the measures of dimensions are written (None: with six digits).
     exaggeration : float
         What heights in it were multiplied with: those that pictures write, on level lines, beside boxes and colour
         bars, are divided by it. Scene files say nothing of it.
@@ -107,6 +109,7 @@ class Scene(Movable["Scene"]):
     depth_cue: DepthCue | None = None
     inks: PenOverrides | None = None
     explosion: Explosion | None = None
+    measures: Measures | None = None
     exaggeration: float = 1.0
     scale_bar: ScaleBar | None = None
 
@@ -241,6 +244,7 @@ def together(scenes: Sequence[Scene]) -> Scene:
         depth_cue=next((scene.depth_cue for scene in scenes if scene.depth_cue), None),
         inks=next((_inks(scene, items[end - len(scene) : end]) for scene, end in parts if scene.inks), None),
         explosion=next((scene.explosion for scene in scenes if scene.explosion), None),
+        measures=next((scene.measures for scene in scenes if scene.measures), None),
         exaggeration=next((scene.exaggeration for scene in scenes if scene.exaggeration != 1.0), 1.0),
         scale_bar=next((scene.scale_bar for scene in scenes if scene.scale_bar), None),
     )

@@ -113,6 +113,11 @@ class NamedVectors:
     name : str
         Of the field.
 
+    Raises
+    ------
+    InputError
+        Where it is called: which item's they are is known where lines are drawn.
+
     Examples
     --------
     >>> from vectorplot.features import VectorField

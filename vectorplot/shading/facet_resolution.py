@@ -48,8 +48,7 @@ from vectorplot.shading.shaded_faces import TrueNormals, point_shades, unit, vie
 from vectorplot.surfaces.surface import is_implicit, is_parametrised
 from vectorplot.tolerances import ROUNDING
 from vectorplot.visibility.painter.image_faces import view_points
-from vectorplot.visibility.painter.unseen import body_sides
-from vectorplot.visibility.projected_faces import newell
+from vectorplot.visibility.projected_faces import body_sides, newell
 
 if TYPE_CHECKING:
     from vectorplot.features.tessellation import Facets

@@ -93,12 +93,10 @@ def corner_shades_of(view: View, lighting: Lighting, points: Floats, offsets: In
     every = np.flatnonzero(smooth[face])
     if not len(every):
         return _with_ambient(found, lighting)
-    flat_normals, inside = face_normals(view), shows_inside(view)
+    turned_normals = shading_normals(view, lighting, points[:, every], face[every])
 
     def shade(some: slice) -> None:
-        at = every[some]
-        normals = _normals_on(view, lighting.normals, flat_normals[:, face[at]], points[:, at], face[at])
-        turned = np.where(inside[face[at]], -normals, normals)
+        at, turned = every[some], turned_normals[:, some]
         own = point_shades(view, lighting.items, lighting.lights, points[:, at].T, turned.T, view.shown_item[face[at]])
         found.shares[:, at], found.matt[:, at] = own.shares, own.matt
         found.backlit[:, at], found.cue[at] = own.backlit, own.cue
@@ -106,6 +104,20 @@ def corner_shades_of(view: View, lighting: Lighting, points: Floats, offsets: In
     for _ in mapped(shade, slices(len(every), POINTS_AT_ONCE)):
         pass
     return _with_ambient(found, lighting)
+
+
+def shading_normals(view: View, lighting: Lighting, points: Floats, face: Ints) -> Floats:
+    """(3,n) the unit normals, on the side that the eye sees, that points (3,n) of smooth faces (n,) are shaded with."""
+    flat, inside, found = face_normals(view), shows_inside(view), np.empty((3, len(face)))
+
+    def turned(some: slice) -> None:
+        own = face[some]
+        normals = _normals_on(view, lighting.normals, flat[:, own], points[:, some], own)
+        found[:, some] = np.where(inside[own], -normals, normals)
+
+    for _ in mapped(turned, slices(len(face), POINTS_AT_ONCE)):
+        pass
+    return found
 
 
 def _with_ambient(found: Shades, lighting: Lighting) -> Shades:

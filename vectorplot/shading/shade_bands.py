@@ -1,28 +1,29 @@
-"""Bands of equal shade on the visible parts of quadric bodies: regions between isophotes, as polygons on the page."""
+"""Bands of equal shade on quadric bodies and on nets of facets: regions between isophotes, as polygons on the page."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from typing import Protocol
 
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
+from vectorplot.geometry.boxes import PAIRS_AT_ONCE, overlapping_boxes
 from vectorplot.geometry.budget import mapped, slices
 from vectorplot.geometry.component_arrays import dot
 from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, joined, take
 from vectorplot.geometry.records import APART, IN_COLUMNS
-from vectorplot.geometry.regions import POLYGON, corners_of, unions, without_holes
-from vectorplot.geometry.regions import polygons_of as shapely_polygons
 from vectorplot.scene.item import Item
 from vectorplot.scene.light import Light
 from vectorplot.scene.placement import Placement
 from vectorplot.scene.view import View
-from vectorplot.shading.facet_resolution import PARTS
+from vectorplot.shading.facet_resolution import PARTS, SHADE_ERROR, shade_error
 from vectorplot.shading.illumination import finish_of, homogeneous_light, shadow_shades, towards
-from vectorplot.shading.shaded_faces import Shades, point_shades, view_eye
+from vectorplot.shading.palettes import COLOUR_MAP
+from vectorplot.shading.shaded_faces import Shades, item_colours, point_shades, view_eye
 from vectorplot.tolerances import LEAST_DIVISOR, ROUNDING
 from vectorplot.visibility.quadrics.visible_parts import CAP, MANTLE, Charts
 
@@ -35,17 +36,30 @@ Margin = Callable[[Ints, Floats], Floats]
 """(m,) how far points (3,m) of charts (m,) are inside of something, negative outside: no farther than they are."""
 
 
+class Places(Protocol):
+    """Places on some charts, given by numbers that are linear along the sides of meshes on them."""
+
+    def at(self, chart: Ints, *place: Floats) -> tuple[Floats, Floats]:
+        """Points of the view and unit normals (3,m) at places (d,m) of charts (m,)."""
+
+
 @dataclass(frozen=True, eq=False)
-class ShadedCharts:
-    """Charts, the items (n,) they show, and how bright these are: view, items and lights as in point_shades.
+class FacetPlaces:
+    """Places on facets of surfaces: a point of the view, and the normal of the surface there, of any length."""
 
-    steps (n,): how many bands a palette has on each chart; loose_mm (n,): how far isophotes may be off on the page;
-    grain (n,): parts that cuts and shadows take are no smaller than this in the view; cuts: margins one after the
-    other, beside which nothing is seen; shadows: margins for some of the lights, by their numbers, outside of which the
-    light does not get; cover: by what convex thing points (3,m) of charts (m,) are well hidden, -1 where by none.
-    """
+    def at(self, chart: Ints, *place: Floats) -> tuple[Floats, Floats]:
+        """As of Places."""
+        normals = np.stack(place[3:])
+        return np.stack(place[:3]), normals / np.maximum(np.sqrt(dot(normals, normals)), LEAST_DIVISOR)
 
-    charts: Charts
+
+@dataclass(frozen=True, eq=False)
+class ShadedPlaces:
+    """Places on charts, the items (n,) that these show, and how bright they are: view, items and lights as in
+    point_shades; steps (n,): how many bands a palette has on each chart; loose_mm (n,): how far isophotes may be off on
+    the page."""
+
+    charts: Places
     item: Ints
     view: View
     items: Sequence[Item]
@@ -53,6 +67,56 @@ class ShadedCharts:
     placement: Placement
     steps: Floats
     loose_mm: Floats
+
+    def __len__(self) -> int:
+        return len(self.item)
+
+    def on_page(self, points: Floats) -> Floats:
+        """(2,m) in mm."""
+        return np.asarray(self.placement.on_page(self.view.image_of(points)).T)
+
+    def shares(self, chart: Ints, points: Floats, normals: Floats) -> Shades:
+        """What the lights give to points of charts."""
+        return point_shades(self.view, self.items, self.lights, points.T, normals.T, self.item[chart])
+
+    def levels(self, chart: Ints, place: Floats, lacking: Ints) -> Floats:
+        """(m,) the shades of places (d,m) that lack lights (m,), as of shadow_shades, in bands."""
+
+        def shade(some: slice) -> Floats:
+            found = self.shares(chart[some], *self.charts.at(chart[some], *place[:, some]))
+            if not lacking[some].any():
+                return found.total
+            dark = ((lacking[some][None] >> np.arange(len(found.shares))[:, None]) & 1).astype(np.bool_)
+            shares = np.where(dark, found.matt, found.shares)
+            return shadow_shades(shares, found.intensity, lacking[some], found.cue)
+
+        return _in_slices(shade, len(chart)) * self.steps[chart]
+
+    def cosines(self, number: int) -> Callable[[Ints, Floats], Floats]:
+        """(m,) at places those of the angles between the normals and the way to a light."""
+        source = homogeneous_light(self.lights[number])
+
+        def cosine(chart: Ints, place: Floats) -> Floats:
+            points, normals = self.charts.at(chart, *place)
+            return dot(normals, towards(points.T, source).T)
+
+        return cosine
+
+    def margins(self, margin: Margin) -> Callable[[Ints, Floats], Floats]:
+        """(m,) at places what a margin is there."""
+        return lambda chart, place: margin(chart, self.charts.at(chart, *place)[0])
+
+
+@dataclass(frozen=True, eq=False)
+class ShadedCharts(ShadedPlaces):
+    """The same of visible parts of quadric bodies.
+
+    grain (n,): parts that cuts and shadows take are no smaller than this in the view; cuts: margins one after the
+    other, beside which nothing is seen; shadows: margins for some of the lights, by their numbers, outside of which the
+    light does not get; cover: by what convex thing points (3,m) of charts (m,) are well hidden, -1 where by none.
+    """
+
+    charts: Charts
     grain: Floats
     cuts: Sequence[Margin] = ()
     shadows: Sequence[tuple[int, Margin]] = ()
@@ -84,46 +148,52 @@ class ShadedCharts:
         own = np.array([f.sharpness if f.highlight > 0.0 else 0.0 for f in finishes], dtype=np.float64)
         return np.asarray(own[self.item])
 
-    def on_page(self, points: Floats) -> Floats:
-        """(2,m) in mm."""
-        return np.asarray(self.placement.on_page(self.view.image_of(points)).T)
-
-    def shares(self, chart: Ints, points: Floats, normals: Floats) -> Shades:
-        """What the lights give to points of charts."""
-        return point_shades(self.view, self.items, self.lights, points.T, normals.T, self.item[chart])
-
-    def levels(self, chart: Ints, x: Floats, y: Floats, lacking: Ints) -> Floats:
-        """(m,) the shades of places that lack lights (m,), as of shadow_shades, in bands."""
-
-        def shade(some: slice) -> Floats:
-            found = self.shares(chart[some], *self.charts.at(chart[some], x[some], y[some]))
-            if not lacking[some].any():
-                return found.total
-            dark = ((lacking[some][None] >> np.arange(len(found.shares))[:, None]) & 1).astype(np.bool_)
-            shares = np.where(dark, found.matt, found.shares)
-            return shadow_shades(shares, found.intensity, lacking[some], found.cue)
-
-        return _in_slices(shade, len(chart)) * self.steps[chart]
-
-    def cosines(self, number: int) -> Callable[[Ints, Floats, Floats], Floats]:
-        """(m,) at places those of the angles between the normals and the way to a light."""
-        source = homogeneous_light(self.lights[number])
-
-        def cosine(chart: Ints, x: Floats, y: Floats) -> Floats:
-            points, normals = self.charts.at(chart, x, y)
-            return dot(normals, towards(points.T, source).T)
-
-        return cosine
-
-    def margins(self, margin: Margin) -> Callable[[Ints, Floats, Floats], Floats]:
-        """(m,) at places what a margin is there."""
-        return lambda chart, x, y: margin(chart, self.charts.at(chart, x, y)[0])
-
 
 def _in_slices(function: Callable[[slice], Floats], count: int) -> Floats:
     """What a function makes of slices of so many columns, on as many threads as are allowed."""
     found = list(mapped(function, slices(count, POINTS_AT_ONCE)))
     return np.concatenate(found, axis=-1) if found else function(slice(0, 0))
+
+
+# How many bands there are.
+
+MIDDLING_MM = 10.0
+"""Bodies of this radius on the page have bands that are off by as much as shades of triangles; the width of the bands
+of larger and smaller ones goes with the root of the radius."""
+
+WIDEST, NARROWEST = 2.0, 0.5
+"""Times the width of the bands of middling bodies that bands of small and of large ones have."""
+
+FEWEST, MOST_PER_MM = 6, 20.0
+"""Bands of a palette; no more than so many for each mm of a radius, since narrower ones are not seen."""
+
+LOOSE, LOOSE_OF_BAND = 2.5, 0.5
+"""Isophotes may be off by so many tolerances, and by such a part of the radius less the number of bands: where a band
+ends is seen far less than where a body does."""
+
+
+def palette_reaches(items: Sequence[Item], item: Ints) -> Floats:
+    """(n,) how far the palettes of items reach from dark to bright, as a part of all that there is."""
+    dark, bright = (item_colours(items, item, np.full(len(item), shade), COLOUR_MAP) for shade in (0.0, 1.0))
+    return np.asarray(np.abs(bright.astype(np.float64) - dark).max(axis=1) / 255.0)
+
+
+def band_widths(reach: Floats, radius_mm: Floats, tolerance_mm: float) -> tuple[Floats, Floats]:
+    """(n,) how many bands palettes that reach so far (n,) have on charts with bodies of such radii on the page (n,): so
+    many that shades are off by no more than half of the width of one, and fewer where a palette has fewer colours; and
+    (n,) how far isophotes may be off on the page."""
+    wide = np.clip(np.sqrt(MIDDLING_MM / np.maximum(radius_mm, MIDDLING_MM / 16.0)), NARROWEST, WIDEST)
+    # Wider ones are seen, whatever the tolerance is.
+    allowed = min(shade_error(tolerance_mm), SHADE_ERROR)
+    steps = np.minimum(reach / (2.0 * wide * allowed), MOST_PER_MM * radius_mm)
+    steps = np.maximum(np.ceil(steps), FEWEST)
+    return steps, np.minimum(LOOSE * tolerance_mm, LOOSE_OF_BAND * radius_mm / steps)
+
+
+def half_band_steps(reach: Floats, steps: Floats) -> float:
+    """By how many of 255 steps colours within bands are off those of the bands, at most: reach, steps (n,) as in
+    band_widths."""
+    return float((127.5 * reach / steps).max(initial=0.0))
 
 
 # Meshes on charts, so fine that everything on them is nearly linear from corner to corner.
@@ -154,29 +224,35 @@ HIGHLIGHT = 1.2
 
 @dataclass(frozen=True, eq=False)
 class ChartMesh:
-    """Triangles (t,3) of nodes on charts: chart, x and y (n,), and whether sides between nodes, where they are borders,
-    are covered by what is painted later."""
+    """Triangles (t,3) of nodes on charts: chart (n,), place (d,n) as of `Places`, and covered (n,): whether sides
+    between nodes, where they are borders, are covered by what is painted later."""
 
     chart: Ints
-    x: Floats
-    y: Floats
+    place: Floats
     covered: Bools
     triangles: Ints
 
+    def __len__(self) -> int:
+        return len(self.chart)
+
+    def between(self, one: Ints, other: Ints, share: Floats) -> Floats:
+        """(d,m) places between two nodes each."""
+        start = self.place[:, one]
+        return np.asarray(start + share * (self.place[:, other] - start))
+
     def with_nodes(self, one: Ints, other: Ints, share: Floats, triangles: Ints) -> ChartMesh:
         """The same with nodes between those that there are, and other triangles."""
-        between = (row[one] + share * (row[other] - row[one]) for row in (self.x, self.y))
-        x, y = (np.concatenate([row, more]) for row, more in zip((self.x, self.y), between, strict=True))
+        place = np.concatenate([self.place, self.between(one, other, share)], axis=1)
         covered = np.concatenate([self.covered, self.covered[one] & self.covered[other]])
-        return ChartMesh(np.concatenate([self.chart, self.chart[one]]), x, y, covered, triangles)
+        return ChartMesh(np.concatenate([self.chart, self.chart[one]]), place, covered, triangles)
 
     def sides(self, triangles: Ints) -> tuple[Ints, Ints, Ints]:
         """The two nodes of every side of some triangles (k,3), each side once, and (k,3) the numbers of theirs, by the
         corners at which they begin."""
         ends = np.stack([triangles, triangles[:, [1, 2, 0]]])
-        key = ends.min(axis=0) * len(self.x) + ends.max(axis=0)
+        key = ends.min(axis=0) * len(self) + ends.max(axis=0)
         found, number = np.unique(key, return_inverse=True)
-        return *np.divmod(found, max(len(self.x), 1)), number.reshape(-1, 3)
+        return *np.divmod(found, max(len(self), 1)), number.reshape(-1, 3)
 
 
 def _first_mesh(charts: Charts) -> ChartMesh:
@@ -194,11 +270,11 @@ def _first_mesh(charts: Charts) -> ChartMesh:
         cells = np.concatenate([one, two])
         nodes = x.size
         triangles = (cells + nodes * np.arange(len(own))[:, None, None]).reshape(-1, 3)
-        parts.append((np.repeat(own, nodes), np.tile(x.ravel(), len(own)), np.tile(y.ravel(), len(own)), triangles))
+        parts.append((np.repeat(own, nodes), np.tile(np.stack([x.ravel(), y.ravel()]), len(own)), triangles))
     first = ragged.starts([len(part[0]) for part in parts])
-    triangles = np.concatenate([part[3] + start for part, start in zip(parts, first, strict=True)])
-    chart, x, y = (np.concatenate([part[k] for part in parts]) for k in range(3))
-    return ChartMesh(chart, x, y, np.zeros(len(chart), dtype=np.bool_), triangles)
+    triangles = np.concatenate([part[2] + start for part, start in zip(parts, first, strict=True)])
+    chart, place = (np.concatenate([part[k] for part in parts], axis=-1) for k in range(2))
+    return ChartMesh(chart, place, np.zeros(len(chart), dtype=np.bool_), triangles)
 
 
 @dataclass(frozen=True, eq=False)
@@ -221,14 +297,14 @@ class _Samples:
         return _Samples(*(np.concatenate(pair, axis=-1) for pair in pairs))
 
 
-def _samples(shaded: ShadedCharts, chart: Ints, x: Floats, y: Floats) -> _Samples:
+def _samples(shaded: ShadedCharts, chart: Ints, place: Floats) -> _Samples:
     shiny = bool(shaded.sharpness.any())
     margins = [*shaded.cuts, *(margin for _, margin in shaded.shadows)]
     count = len(shaded.lights)
 
     def rows(some: slice) -> Floats:
         own = chart[some]
-        points, normals = shaded.charts.at(own, x[some], y[some])
+        points, normals = shaded.charts.at(own, *place[:, some])
         level = shaded.shares(own, points, normals).total * shaded.steps[own]
         to_eye = towards(points.T, view_eye(shaded.view)).T if shiny else points
         alpha, highlight = [], []
@@ -251,15 +327,14 @@ def _refined(shaded: ShadedCharts, mesh: ChartMesh, tolerance_mm: float) -> tupl
     """The mesh with triangles halved until everything is nearly linear along their sides; and how far sides along
     outlines are off these on the page, at most, in their middles."""
     off_mm = 0.0
-    known = _samples(shaded, mesh.chart, mesh.x, mesh.y)
+    known = _samples(shaded, mesh.chart, mesh.place)
     active, done = mesh.triangles, []
     for _ in range(ROUNDS):
         one, other, number = mesh.sides(active)
         chart = mesh.chart[one]
-        x, y = (0.5 * (row[one] + row[other]) for row in (mesh.x, mesh.y))
-        between = _samples(shaded, chart, x, y)
-        border = (np.abs(x) == 1.0) & (mesh.x[one] == mesh.x[other])
-        border |= (np.abs(y) == 1.0) & (mesh.y[one] == mesh.y[other])
+        middle = mesh.between(one, other, np.full(len(one), 0.5))
+        between = _samples(shaded, chart, middle)
+        border = ((np.abs(middle) == 1.0) & (mesh.place[:, one] == mesh.place[:, other])).any(axis=0)
         ends = known.take(one), known.take(other)
         bad = _bent(shaded, chart, border, ends, between, tolerance_mm)
         off_mm = max(off_mm, float(_beside(*ends, between)[border & ~bad].max(initial=0.0)))
@@ -267,7 +342,7 @@ def _refined(shaded: ShadedCharts, mesh: ChartMesh, tolerance_mm: float) -> tupl
             break
         cut = np.flatnonzero(bad)
         fresh = np.full(len(bad), -1, dtype=np.intp)
-        fresh[cut] = len(mesh.x) + np.arange(len(cut))
+        fresh[cut] = len(mesh) + np.arange(len(cut))
         split = bad[number].any(axis=1)
         done.append(active[~split])
         active = _halved(active[split], bad[number[split]], fresh[number[split]])
@@ -369,9 +444,9 @@ def _root(function: Callable[[Ints, Floats], Floats], start: Floats, end: Floats
     return found
 
 
-def _cut(mesh: ChartMesh, function: Callable[[Ints, Floats, Floats], Floats]) -> tuple[ChartMesh, Floats]:
+def _cut(mesh: ChartMesh, function: Callable[[Ints, Floats], Floats]) -> tuple[ChartMesh, Floats]:
     """The mesh with triangles cut where a function of places is zero, and (t,) its sign on each of them."""
-    value = _in_slices(lambda some: function(mesh.chart[some], mesh.x[some], mesh.y[some]), len(mesh.x))
+    value = _in_slices(lambda some: function(mesh.chart[some], mesh.place[:, some]), len(mesh))
     value = np.where(np.abs(value) <= ROUNDING, 0.0, value)
     sign = np.sign(value).astype(np.intp)
     corner = sign[mesh.triangles]
@@ -382,13 +457,13 @@ def _cut(mesh: ChartMesh, function: Callable[[Ints, Floats, Floats], Floats]) ->
     start, end = one[crossed], other[crossed]
 
     def along(which: Ints, part: Floats) -> Floats:
-        a, b = start[which], end[which]
-        x, y = (row[a] + part * (row[b] - row[a]) for row in (mesh.x, mesh.y))
-        return _in_slices(lambda some: function(mesh.chart[a[some]], x[some], y[some]), len(x))
+        a = start[which]
+        place = mesh.between(a, end[which], part)
+        return _in_slices(lambda some: function(mesh.chart[a[some]], place[:, some]), len(a))
 
     share = _root(along, value[start], value[end], ROUNDING)
     fresh = np.full(len(one), -1, dtype=np.intp)
-    fresh[crossed] = len(mesh.x) + np.arange(len(start))
+    fresh[crossed] = len(mesh) + np.arange(len(start))
     middles = fresh[number]
     several = (middles >= 0).sum(axis=1) == 2
     # Turned so that the first corner lies alone on its side, or on the cut.
@@ -414,6 +489,9 @@ def _cut(mesh: ChartMesh, function: Callable[[Ints, Floats, Floats], Floats]) ->
 OVER = 2
 """So many bands each polygon covers: its own, and the next one, which covers that."""
 
+COAT = 1
+"""So many bands below the lowest one its coat is."""
+
 THINNED, THINNED_UNDER = 0.3, 0.45
 """Corners of isophotes that are no farther off the line between their neighbours than this part of the width of the
 band are left out, where bands begin, and where they end under the next ones."""
@@ -427,8 +505,9 @@ SPECK_MM = 0.04
 UNSEEN_MM = 0.15
 """So far corners may be off that are covered."""
 
-CHARTS_AT_ONCE = 64
-"""So many are marched at once: few enough to bound what they take of memory."""
+CHARTS_AT_ONCE, TRIANGLES_AT_ONCE = 64, 1 << 14
+"""So many charts, or about so many triangles of facets, are marched at once: few enough to bound what they take of
+memory."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -474,10 +553,10 @@ def _bands_of(shaded: ShadedCharts, tolerance_mm: float) -> tuple[ShadeBands, fl
     """The same of some charts."""
     mesh, off_mm = _refined(shaded, _first_mesh(shaded.charts), tolerance_mm)
     if shaded.cover is not None:
-        cover = shaded.cover(mesh.chart, shaded.charts.at(mesh.chart, mesh.x, mesh.y)[0])[mesh.triangles]
+        cover = shaded.cover(mesh.chart, shaded.charts.at(mesh.chart, *mesh.place)[0])[mesh.triangles]
         # What a convex thing hides is convex.
         seen = (cover[:, 0] < 0) | (cover != cover[:, :1]).any(axis=1)
-        covered = np.zeros(len(mesh.x), dtype=np.bool_)
+        covered = np.zeros(len(mesh), dtype=np.bool_)
         covered[mesh.triangles[~seen]] = True
         mesh = replace(mesh, covered=covered, triangles=mesh.triangles[seen])
     for cut in shaded.cuts:
@@ -487,33 +566,52 @@ def _bands_of(shaded: ShadedCharts, tolerance_mm: float) -> tuple[ShadeBands, fl
         mesh = _cut(mesh, shaded.cosines(number))[0]
     for _, margin in shaded.shadows:
         mesh = _cut(mesh, shaded.margins(margin))[0]
-    return _marched(shaded, mesh, _lacking(shaded, mesh), tolerance_mm), off_mm
+    return _marched(shaded, mesh, _lacking(shaded, mesh)), off_mm
+
+
+def mesh_bands(shaded: ShadedPlaces, mesh: ChartMesh, lacking: Ints, coated: Bools) -> ShadeBands:
+    """The bands of equal shade on a mesh every node of which lacks some lights (n,), bit k for light k: chart by chart,
+    as its triangles are, on each of them as in `shade_bands`; coated (t,): whether the darkest shade goes on under
+    triangles.
+
+    Sides that two triangles of a chart have in common run opposite ways on them, and no side is there twice one way.
+    """
+    first = ragged.offsets(np.bincount(mesh.chart[mesh.triangles[:, 0]], minlength=len(shaded)))
+
+    def of_part(span: tuple[int, int]) -> ShadeBands:
+        begin, end = first[list(span)]
+        node, place = np.unique(mesh.triangles[begin:end], return_inverse=True)
+        part = ChartMesh(mesh.chart[node], mesh.place[:, node], mesh.covered[node], place.reshape(-1, 3))
+        part, source = _without_pinches(part)
+        return _Marching(shaded, part, lacking[node[source]], coated[begin:end]).bands()
+
+    return joined(list(mapped(of_part, ragged.batches(np.diff(first), TRIANGLES_AT_ONCE))))
 
 
 def _lacking(shaded: ShadedCharts, mesh: ChartMesh) -> Ints:
     """(t,) the lights that do not get to triangles which they shine on: bit k for light k."""
     found = np.zeros(len(mesh.triangles), dtype=np.intp)
     chart = mesh.chart[mesh.triangles[:, 0]]
-    x, y = (row[mesh.triangles].mean(axis=1) for row in (mesh.x, mesh.y))
+    place = mesh.place[:, mesh.triangles].mean(axis=2)
     for number, margin in shaded.shadows:
         sides = (shaded.margins(margin), shaded.cosines(number))
         in_shadow, lit = (
-            _in_slices(lambda some, side=side: side(chart[some], x[some], y[some]), len(chart))  # type: ignore[misc]
+            _in_slices(lambda some, side=side: side(chart[some], place[:, some]), len(chart))  # type: ignore[misc]
             for side in sides
         )
         found |= np.where((in_shadow < 0.0) & (lit > 0.0), 1 << number, 0)
     return found
 
 
-def _marched(shaded: ShadedCharts, mesh: ChartMesh, lacking: Ints, tolerance_mm: float) -> ShadeBands:
+def _marched(shaded: ShadedCharts, mesh: ChartMesh, lacking: Ints) -> ShadeBands:
     combinations = np.unique(np.append(lacking, 0))
     combinations = combinations[np.argsort(np.bitwise_count(combinations), kind="stable")]
     jobs, nodes, lacks, covered = [], [], [], []
-    within = (np.abs(mesh.x) < 1.0) & (np.abs(mesh.y) < 1.0)
+    within = (np.abs(mesh.place) < 1.0).all(axis=0)
     count = 0
     for some in combinations.tolist():
         # Those in more shadows lie on these: of them only what is next is needed.
-        beside = np.zeros(len(mesh.x), dtype=np.bool_)
+        beside = np.zeros(len(mesh), dtype=np.bool_)
         beside[mesh.triangles[lacking == some]] = True
         triangles = mesh.triangles[((lacking & some) == some) & beside[mesh.triangles].any(axis=1)]
         own, place = np.unique(triangles, return_inverse=True)
@@ -523,15 +621,15 @@ def _marched(shaded: ShadedCharts, mesh: ChartMesh, lacking: Ints, tolerance_mm:
         lacks.append(np.full(len(own), some, dtype=np.intp))
         count += len(own)
     node, lack = np.concatenate(nodes), np.concatenate(lacks)
-    job_mesh = ChartMesh(mesh.chart[node], mesh.x[node], mesh.y[node], np.concatenate(covered), np.concatenate(jobs))
+    job_mesh = ChartMesh(mesh.chart[node], mesh.place[:, node], np.concatenate(covered), np.concatenate(jobs))
     job_mesh, source = _without_pinches(job_mesh)
-    return _Marching(shaded, job_mesh, lack[source], tolerance_mm).bands()
+    return _Marching(shaded, job_mesh, lack[source], np.ones(len(job_mesh.triangles), dtype=np.bool_)).bands()
 
 
 def _without_pinches(mesh: ChartMesh) -> tuple[ChartMesh, Ints]:
     """The mesh with a node of its own for each fan of triangles that meet in one, and (n,) the old number of each node:
     every node then has one side of the border before it, and one behind it, or none."""
-    triangles, count = mesh.triangles, len(mesh.x)
+    triangles, count = mesh.triangles, len(mesh)
     _, _, number = mesh.sides(triangles)
     once = np.bincount(number.ravel())[number] == 1
     pinched = np.bincount(triangles[once], minlength=count) > 1
@@ -559,24 +657,23 @@ def _without_pinches(mesh: ChartMesh) -> tuple[ChartMesh, Ints]:
     node = node.copy()
     node[corner] = count + of.reshape(-1)
     source = np.concatenate([np.arange(count), triangles.ravel()[fans]])
-    own = replace(mesh, x=mesh.x[source], y=mesh.y[source], triangles=node.reshape(-1, 3))
-    return replace(own, chart=mesh.chart[source], covered=mesh.covered[source]), source
+    return ChartMesh(mesh.chart[source], mesh.place[:, source], mesh.covered[source], node.reshape(-1, 3)), source
 
 
 @dataclass(frozen=True, eq=False)
 class _Marching:
-    """A mesh every node of which lacks some lights (n,), marched."""
+    """A mesh every node of which lacks some lights (n,), marched. What of it is coated (t,) has the darkest shade below
+    all bands, so that nothing behind is seen where these are narrower than a pixel."""
 
-    shaded: ShadedCharts
+    shaded: ShadedPlaces
     mesh: ChartMesh
     lacking: Ints
-    tolerance_mm: float
+    coated: Bools
 
     @cached_property
     def level(self) -> Floats:
         """(n,) the shades of nodes in bands."""
-        mesh = self.mesh
-        return self.shaded.levels(mesh.chart, mesh.x, mesh.y, self.lacking)
+        return self.shaded.levels(self.mesh.chart, self.mesh.place, self.lacking)
 
     @cached_property
     def sides(self) -> tuple[Ints, Ints, Ints]:
@@ -586,7 +683,7 @@ class _Marching:
     @cached_property
     def part(self) -> Ints:
         """(n,) the number of the part each node is of: of one chart, for want of the same lights."""
-        key = self.lacking * (len(self.shaded.charts) + 1) + self.mesh.chart
+        key = self.lacking * (len(self.shaded) + 1) + self.mesh.chart
         return np.asarray(np.unique(key, return_inverse=True)[1].reshape(-1))
 
     @cached_property
@@ -619,7 +716,7 @@ class _Marching:
 
     @cached_property
     def _span(self) -> int:
-        return int(np.ceil(self.level.max(initial=0.0))) + OVER + 1
+        return int(np.ceil(self.level.max(initial=0.0))) + OVER + COAT + 1
 
     def _segments(self) -> tuple[Ints, Ints, Ints, Ints]:
         """Pieces of borders of bands, these on their left: keys, which tell part and band, start and end (s,); kind 0
@@ -639,13 +736,12 @@ class _Marching:
         np.minimum.at(lowest, self.part, np.floor(level).astype(np.intp))
         span = self._span
         parts = [
-            (part * span + lines, start, end, np.ones(len(of), dtype=np.intp)),
-            (part * span + lines - OVER, end, start, np.full(len(of), 2, dtype=np.intp)),
+            (part * span + COAT + lines, start, end, np.ones(len(of), dtype=np.intp)),
+            (part * span + COAT + lines - OVER, end, start, np.full(len(of), 2, dtype=np.intp)),
         ]
-        # The lowest band goes on under all others, so that nothing behind is seen between these.
-        kept = [lines > lowest[part], lines - OVER > lowest[part]]
+        kept = [lines > lowest[part], lines - OVER >= lowest[part]]
         parts = [tuple(row[some] for row in rows) for rows, some in zip(parts, kept, strict=True)]
-        parts.append(self._along_borders(lowest))
+        parts += [self._along_borders(lowest), self._coats(lowest)]
         return tuple(np.concatenate([rows[k] for rows in parts]) for k in range(4))  # type: ignore[return-value]
 
     def _along_borders(self, lowest: Ints) -> tuple[Ints, Ints, Ints, Ints]:
@@ -667,11 +763,19 @@ class _Marching:
         end = np.where(last, b[of], self.crossing(side[of], np.where(last, 0, behind)))
         kind = np.where(mesh.covered[a] & mesh.covered[b], 2, 0).astype(np.intp)[of]
         part = self.part[a][of]
-        bands = np.stack([lowest[part], *(band - under for under in range(OVER))])
-        kept = bands > lowest[part]
-        kept[0] = True
-        row, piece = np.nonzero(kept)
-        return part[piece] * self._span + bands[row, piece], start[piece], end[piece], kind[piece]
+        bands = np.stack([band - under for under in range(OVER)])
+        row, piece = np.nonzero(bands >= lowest[part])
+        return part[piece] * self._span + COAT + bands[row, piece], start[piece], end[piece], kind[piece]
+
+    def _coats(self, lowest: Ints) -> tuple[Ints, Ints, Ints, Ints]:
+        """The borders of what is coated, below the lowest bands of parts."""
+        number = self.sides[2][self.coated]
+        once = np.bincount(number.ravel(), minlength=1)[number] == 1
+        triangle, corner = np.nonzero(once)
+        own = self.mesh.triangles[self.coated]
+        a, b = own[triangle, corner], own[triangle, (corner + 1) % 3]
+        part = self.part[a]
+        return part * self._span + COAT + lowest[part] - COAT, a, b, np.zeros(len(a), dtype=np.intp)
 
     def _allowed(self, page: Floats) -> tuple[Floats, Floats]:
         """(k,) how far corners (2,k) may be beside the lines that are drawn without them where bands begin, and where
@@ -706,49 +810,41 @@ class _Marching:
         start, end = one[side], other[side]
 
         def along(which: Ints, part: Floats) -> Floats:
-            a, b = start[which], end[which]
-            x, y = (row[a] + part * (row[b] - row[a]) for row in (mesh.x, mesh.y))
-            return self.shaded.levels(mesh.chart[a], x, y, self.lacking[a]) - level[which]
+            a = start[which]
+            place = mesh.between(a, end[which], part)
+            return self.shaded.levels(mesh.chart[a], place, self.lacking[a]) - level[which]
 
         share = _root(along, self.level[start] - level, self.level[end] - level, EXACT_LEVEL)
         every = mesh.with_nodes(start, end, share, mesh.triangles)
-        return _in_slices(
-            lambda some: self.shaded.charts.at(every.chart[some], every.x[some], every.y[some])[0], len(every.x)
-        )
+        return _in_slices(lambda some: self.shaded.charts.at(every.chart[some], *every.place[:, some])[0], len(every))
 
     def _polygons(
         self, points: Floats, page: Floats, position: Ints, offsets: Ints, key: Ints, upper: Bools
     ) -> ShadeBands:
-        """Rings as polygons: holes around what is brighter are left out, for that is painted later, but on parts with
-        other holes in them; what has holes then is cut open to them."""
+        """Rings as polygons: holes in which all is brighter are left out, for that is painted later; what has others is
+        cut open to them."""
         flat = page[:, position]
-        after = ragged.following(offsets)
-        doubled = flat[0] * flat[1, after] - flat[1] * flat[0, after]
-        area = np.add.reduceat(doubled, offsets[:-1]) if len(doubled) else np.zeros(0)
-        hole = area < 0.0
-        kept = (np.diff(offsets) >= 3) & (area != 0.0)
+        doubled = _doubled_areas(flat, offsets)
+        hole = doubled < 0.0
+        large = (np.diff(offsets) >= 3) & (np.abs(doubled) > 2.0 * SPECK_MM**2)
+        brighter, open_ = np.flatnonzero(large & hole & upper), np.flatnonzero(large & hole & ~upper)
         part = key // self._span
-        kept &= ~(hole & upper) | np.isin(part, part[kept & hole & ~upper])
-        kept &= np.abs(area) > 2.0 * SPECK_MM**2
-        pierced = kept & np.isin(key, key[kept & hole])
-        alone = np.flatnonzero(kept & ~pierced)
-        # Beside contours, where bands are narrower than chords are off, these cross.
-        corner, ends = ragged.take(offsets, alone)
-        pierced[alone[~_simple(flat[:, corner], ends)]] = True
-        whole = np.flatnonzero(kept & ~pierced)
-        corner, ends = ragged.take(offsets, whole)
-        found = self._bands(points[:, position[corner]], flat[:, corner], ends, key[whole])
-        if not pierced.any():
-            return found
-        some = np.flatnonzero(pierced)
-        corner, ends = ragged.take(offsets, some)
-        opened, ends, own = _opened(flat[:, corner], ends, key[some], hole[some])
-        near = nearest_of(flat[:, corner], opened)
-        found = joined([found, self._bands(points[:, position[corner[near]]], opened, ends, own)])
-        return take(found, _painting_order(found))
+        around, _ = _rings_within(flat, offsets, part, brighter, open_)
+        holes = np.union1d(open_, around)
+        outer, inner = _rings_within(flat, offsets, key, np.flatnonzero(large & ~hole), holes)
+        # Of those around a hole the smallest one.
+        order = np.lexsort((doubled[outer], inner))
+        first = np.diff(inner[order], prepend=-1) != 0
+        outer, inner = outer[order][first], inner[order][first]
+        rings = np.concatenate([np.flatnonzero(large & ~hole), inner])
+        owner = np.concatenate([np.flatnonzero(large & ~hole), outer])
+        rings = rings[np.argsort(owner, kind="stable")]
+        corner, ends, of = _opened(offsets, rings, np.sort(owner))
+        return self._bands(points[:, position[corner]], flat[:, corner], ends, key[of])
 
     def _bands(self, points: Floats, page: Floats, offsets: Ints, key: Ints) -> ShadeBands:
         part, band = np.divmod(key, self._span)
+        band = np.maximum(band - COAT, 0)
         first = np.zeros(int(self.part.max(initial=-1)) + 1, dtype=np.intp)
         first[self.part] = np.arange(len(self.part))
         node = first[part]
@@ -761,39 +857,50 @@ def _painting_order(bands: ShadeBands) -> Ints:
     return np.lexsort((bands.level, bands.lacking, np.bitwise_count(bands.lacking), bands.chart))
 
 
-def _simple(page: Floats, offsets: Ints) -> Bools:
-    """(n,) which rings (2,p) do not cross themselves."""
-    import shapely
-
-    return np.asarray(shapely.is_valid(shapely_polygons(page, offsets)) if len(offsets) > 1 else offsets[1:] > 0)
-
-
-def _opened(page: Floats, offsets: Ints, key: Ints, hole: Bools) -> tuple[Floats, Ints, Ints]:
-    """Rings (2,p) of regions with keys (n,), some of which are holes or cross themselves, as polygons without holes,
-    with their keys."""
-    import shapely
-
-    rings = shapely_polygons(page, offsets)
-    keys, number = np.unique(key, return_inverse=True)
-    around, of_outer = np.unique(number[~hole], return_inverse=True)
-    pierced, of_hole = np.unique(number[hole], return_inverse=True)
-    region = np.full(len(keys), shapely.Polygon(), dtype=object)
-    region[around] = unions(rings[~hole], of_outer, None)
-    region[pierced] = shapely.difference(region[pierced], unions(rings[hole], of_hole, None))
-    parts, of = shapely.get_parts(region, return_index=True)
-    filled = shapely.get_type_id(parts) == POLYGON
-    parts, of = without_holes(parts[filled], of[filled])
-    large = shapely.area(parts) > SPECK_MM**2
-    parts, of = parts[large], of[large]
-    corners, ends = corners_of(parts)
-    return corners, ends, keys[of]
+def _doubled_areas(page: Floats, offsets: Ints) -> Floats:
+    """(n,) twice the signed areas of rings (2,p)."""
+    if not page.shape[1]:
+        return np.zeros(0)
+    (x, y), (u, v) = page, page[:, ragged.following(offsets)]
+    return np.asarray(np.add.reduceat(x * v - y * u, offsets[:-1]))
 
 
-def nearest_of(places: Floats, points: Floats) -> Ints:
-    """(m,) which of places (2,n) is the nearest one to each point (2,m)."""
-    import shapely
+def _rings_within(page: Floats, offsets: Ints, group: Ints, one: Ints, other: Ints) -> tuple[Ints, Ints]:
+    """Pairs of rings (2,p) of one group (n,), those of the one kind and those of the other within them, which they do
+    not cross: by where these begin."""
+    if not len(one) or not len(other):
+        return one[:0], other[:0]
+    low, high = (extreme.reduceat(page, offsets[:-1], axis=1) for extreme in (np.minimum, np.maximum))
+    place = page[:, offsets[other]]
+    of_one, of_other = group[one].astype(np.float64), group[other].astype(np.float64)
+    boxes = np.vstack([of_one, low[:, one]]), np.vstack([of_one, high[:, one]])
+    pair, inner = overlapping_boxes(*boxes, *[np.vstack([of_other, place])] * 2)
+    pair = pair[distinct := one[pair] != other[inner]]
+    inner = inner[distinct]
+    within = np.zeros(len(pair), dtype=np.bool_)
+    for begin, end in ragged.batches(np.diff(offsets)[one[pair]], PAIRS_AT_ONCE):
+        corner, ends = ragged.take(offsets, one[pair[begin:end]])
+        (x, y), (u, v) = page[:, corner], page[:, corner[ragged.following(ends)]]
+        a, b = place[:, np.repeat(inner[begin:end], np.diff(ends))]
+        across = (y <= b) != (v <= b)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            across &= x + (u - x) * (b - y) / (v - y) > a
+        within[begin:end] = np.add.reduceat(across, ends[:-1], dtype=np.intp) % 2 == 1
+    return one[pair[within]], other[inner[within]]
 
-    return np.asarray(shapely.STRtree(shapely.points(places.T)).nearest(shapely.points(points.T)), dtype=np.intp)
+
+def _opened(offsets: Ints, rings: Ints, owner: Ints) -> tuple[Ints, Ints, Ints]:
+    """Rings, each followed by its holes, whose owner it is, as polygons that are cut open to these from the first
+    corner: corners (c,), offsets (m+1,), and the ring of each polygon."""
+    sizes = np.diff(offsets)[rings]
+    first = np.append(True, owner[1:] != owner[:-1])[: len(owner)]
+    holes = np.bincount(np.cumsum(first) - 1)[np.cumsum(first) - 1] > 1
+    # A ring with holes comes back to its first corner; so does each hole, and then goes to that of the ring.
+    more = np.where(holes, np.where(first, 1, 2), 0)
+    ring, step = ragged.owner(sizes + more), ragged.place(sizes + more)
+    at = np.where(step <= sizes[ring], offsets[rings[ring]] + step % sizes[ring], offsets[owner[ring]])
+    ends = np.append(ragged.offsets(sizes + more)[:-1][first], len(at))
+    return at, ends, rings[first]
 
 
 def _rings(key: Ints, start: Ints, end: Ints, kind: Ints) -> tuple[Ints, Ints, Ints, Bools]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import platform
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -10,19 +11,23 @@ from typing import Any
 
 import numpy as np
 
+from vectorplot.drawing.drawing import Drawing
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.budget import threads_of, unheard
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.rotations import axis_frame
+from vectorplot.io.molecules import Molecule, molecule_scene
 from vectorplot.pictures.draw import draw
 from vectorplot.pictures.paint import paint
 from vectorplot.pictures.pipeline import StageReport
 from vectorplot.pictures.render import render
+from vectorplot.save import write
 from vectorplot.scene.hatching import Hatching
 from vectorplot.scene.item import Item
 from vectorplot.scene.light import Light
 from vectorplot.scene.scene import Scene
+from vectorplot.shading.image import Image
 from vectorplot.speed.results import (
     Log,
     Measured,
@@ -36,7 +41,7 @@ from vectorplot.speed.results import (
 )
 from vectorplot.surfaces.quadrics import Sphere
 from vectorplot.surfaces.tori import Torus
-from vectorplot.testing.shapes import box, bumpy_icosphere, rotated_boxes
+from vectorplot.testing.shapes import box, bumpy_icosphere, grid_graph, rotated_boxes
 
 # The scenes that are timed: fixed ones, each in a few sizes.
 
@@ -103,8 +108,52 @@ def lump(level: int) -> Scene:
     return Scene((Item("lump", bumpy_icosphere(level)),), lights=(LAMP,))
 
 
+def _halvings(triangles: int) -> int:
+    return round(math.log2(triangles / 20.0) / 2.0)
+
+
 def _lump_of(triangles: int) -> Scene:
-    return lump(round(np.log2(triangles / 20.0) / 2.0))
+    return lump(_halvings(triangles))
+
+
+def balls(count: int) -> Scene:
+    """Balls side by side on a floor under a lamp."""
+    rng = np.random.default_rng(3)
+    side = 1.2 * count**0.5
+    radii = rng.uniform(0.2, 0.5, count).tolist()
+    places = zip(rng.uniform(0.0, side, (count, 2)).tolist(), radii, strict=True)
+    items = (Item(f"ball {k}", Sphere(r, (x, y, r))) for k, ((x, y), r) in enumerate(places))
+    floor = Item("floor", box((-1.0, -1.0, -0.1), (side + 1.0, side + 1.0, 0.0)))
+    return Scene((floor, *items), lights=(Light((0.6 * side, -0.8 * side, 1.5 * side)),))
+
+
+def lattice(count: int) -> Scene:
+    """So many atoms of two kinds in a cube, each bonded to its neighbours."""
+    side = round(count ** (1.0 / 3.0))
+    number = np.arange(side**3).reshape(side, side, side)
+    ways = (np.moveaxis(number, axis, 0) for axis in range(3))
+    bonds = np.concatenate([np.stack([way[:-1].ravel(), way[1:].ravel()], axis=1) for way in ways])
+    places = np.stack(np.unravel_index(number.ravel(), number.shape), axis=1)
+    symbols = tuple(np.where(places.sum(axis=1) % 2, "Cl", "Na").tolist())
+    return molecule_scene(Molecule("lattice", symbols, 2.8 * places.astype(np.float64), bonds))
+
+
+def rough(triangles: int) -> Scene:
+    """A ball of so many triangles, each turned its own way, under a lamp."""
+    mesh = bumpy_icosphere(_halvings(triangles))
+    noise = np.random.default_rng(0).normal(1.0, 0.5 / triangles**0.5, (len(mesh.vertices), 1))
+    return Scene((Item("lump", Mesh(noise * mesh.vertices, mesh.corners, mesh.offsets)),), lights=(LAMP,))
+
+
+def terrain(triangles: int) -> Scene:
+    """The graph of a function under a lamp."""
+    return Scene((Item("terrain", grid_graph(round((triangles / 2.0) ** 0.5))),), lights=(LAMP,))
+
+
+def heap(count: int) -> Scene:
+    """Tori in a heap under a lamp, some of which meet."""
+    centres = np.random.default_rng(5).uniform(0.0, 2.6 * count ** (1.0 / 3.0), (count, 3)).tolist()
+    return Scene(tuple(Item(f"torus {k}", Torus(1.0, 0.35, place)) for k, place in enumerate(centres)), lights=(LAMP,))
 
 
 _TRIANGLES = tuple(20 * 4**level for level in (5, 6, 7, 8))
@@ -124,11 +173,17 @@ SERIES = (
     Series("tori", "draw", {}, tori, (1, 2, 4), "torus"),
     Series("boxes in colour", "paint", {"shadows": "none"}, boxes, (200, 400, 800), "box"),
     Series("pixels of one mesh", "render", {"size": (400, 300)}, _lump_of, _TRIANGLES[:3], "triangle"),
-    Series("pixels of spheres", "render", {"size": (400, 300)} | _FROM_AFAR, spheres, (20, 80, 320), "sphere"),
+    Series("balls in colour", "paint", {}, balls, (10, 100, 1000), "ball"),
+    Series("molecule in colour", "paint", {}, lattice, (27, 125, 1000), "atom"),
+    Series("tori in colour", "paint", {}, heap, (1, 5, 25), "torus"),
+    Series("rough mesh in colour", "paint", {}, rough, _TRIANGLES[:2], "triangle"),
+    Series("terrain in colour", "paint", {}, terrain, (5000, 20000, 80000), "triangle"),
+    Series("pixels of spheres", "render", {"size": (400, 300)} | _FROM_AFAR, spheres, (20, 320, 5120), "sphere"),
+    Series("pixels of a molecule", "render", {"size": (400, 300)}, lattice, (27, 125, 1000), "atom"),
 )
 
 
-VERBS: dict[str, Callable[..., object]] = {"draw": draw, "paint": paint, "render": render}
+VERBS: dict[str, Callable[..., Drawing | Image]] = {"draw": draw, "paint": paint, "render": render}
 
 LONG = 0.5
 """What takes so many seconds is timed once, after it was made once untimed; what is shorter a few times."""
@@ -154,7 +209,9 @@ def measured(series: Series, repeat: int = 2, largest: int | None = None) -> Mea
         times.append(once if once > LONG else min(once, cpu_seconds(made, repeat)))
     whole = sum(stage.seconds for stage in stages) or 1.0
     parts = tuple((stage.name, stage.seconds / whole) for stage in stages)
-    return Measured(series.name, series.verb, series.thing, sizes, tuple(times), parts, memory)
+    picture = made()
+    contents = picture.png() if isinstance(picture, Image) else write(picture, "svg")
+    return Measured(series.name, series.verb, series.thing, sizes, tuple(times), parts, memory, len(contents) / 1e6)
 
 
 def on_threads(series: Series, count: int) -> Threads:

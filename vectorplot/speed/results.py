@@ -153,7 +153,8 @@ FORMAT, VERSION = "vectorplot-speed", 1
 @dataclass(frozen=True)
 class Measured:
     """What pictures of one kind cost: name, verb, and thing, what sizes count; for each of the sizes the seconds of the
-    processor; stages of the largest one with their parts of its time; memory in MB that this one needed at most."""
+    processor; stages of the largest one with their parts of its time; memory in MB that this one needed at most; its
+    file, SVG or PNG, in MB (0 in logs of earlier versions)."""
 
     name: str
     verb: str
@@ -162,6 +163,7 @@ class Measured:
     seconds: tuple[float, ...]
     stages: tuple[tuple[str, float], ...]
     memory_mb: float
+    file_mb: float = 0.0
 
     @property
     def exponent(self) -> float:
@@ -288,8 +290,8 @@ def _operations(title: str, operations: Sequence[Operation]) -> list[str]:
 
 
 def _pictures(log: Log) -> list[str]:
-    head = f"{'picture':<22} {'verb':<7} {'things':>20} {'s':>8} {'points':>8} {'growth':>7} {'MB':>6}  longest stages"
-    rows = [head]
+    head = f"{'picture':<22} {'verb':<7} {'things':>20} {'s':>8} {'points':>8} {'growth':>7} {'MB':>6} {'file':>6}"
+    rows = [f"{head}  longest stages"]
     for one in log.pictures:
         longest = sorted(one.stages, key=lambda stage: -stage[1])[:MOST_STAGES]
         stages = ", ".join(f"{name} {100.0 * part:.0f} %" for name, part in longest)
@@ -298,11 +300,12 @@ def _pictures(log: Log) -> list[str]:
         points = one.points(log.point_us)
         rows.append(
             f"{one.name:<22} {one.verb:<7} {things:>20} {one.seconds[-1]:8.3f} {points:8.1f} {growth} "
-            f"{one.memory_mb:6.0f}  {stages}"
+            f"{one.memory_mb:6.0f} {one.file_mb:6.2f}  {stages}"
         )
     return [
         *rows,
-        "points: what one thing costs, in points projected and sorted; growth: the exponent of the time over the size",
+        "points: what one thing costs, in points projected and sorted; growth: the exponent of the time over the size;",
+        "MB: of memory; file: MB of SVG or PNG",
     ]
 
 

@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import os
-import subprocess
-import sys
 from dataclasses import replace
 
 import numpy as np
@@ -229,26 +226,6 @@ def test_what_has_no_faces_that_one_sees_has_no_strokes() -> None:
         for hatch in (vp.Hatching("even"), vp.Hatching("tone", cross=True, along="surface")):
             drawing = vp.draw(scene, "top", page=PAGE, lines="contour", hatch=hatch)
             assert not any(layer.name.startswith("hatch") for layer in drawing.layers if len(layer.strokes[0]))
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("halvings", [5, 6])
-def test_rough_meshes_are_hatched_in_two_gigabytes_of_addresses(halvings: int) -> None:
-    """In a process of its own, as what others of this one have used would count."""
-    program = f"""
-import resource
-resource.setrlimit(resource.RLIMIT_AS, (2 * 10**9, 2 * 10**9))
-import vectorplot as vp
-from support.rough import rough_sphere
-scene = vp.Scene((vp.Item("M", rough_sphere({halvings})),), (vp.Light((9.0, -7.0, 12.0)),))
-drawing = vp.draw(scene, lines="contour", hatch=vp.Hatching("tone"), jobs=1)
-print(sum(len(paths) for layer in drawing.layers if layer.name.startswith("hatch") for paths in layer.strokes))
-"""
-    paths = os.pathsep.join(path for path in sys.path if path)
-    told = os.environ | {"PYTHONPATH": paths, "OPENBLAS_NUM_THREADS": "1"}
-    found = subprocess.run([sys.executable, "-c", program], env=told, capture_output=True, text=True, check=False)
-    assert found.returncode == 0, found.stderr
-    assert int(found.stdout) > 500
 
 
 @pytest.mark.slow

@@ -11,7 +11,8 @@ from support.paths import ROOT
 import vectorplot as vp
 from vectorplot.cli.main import run
 from vectorplot.curves import Circle
-from vectorplot.drawing.sheets import DrawingScale, shared_scale
+from vectorplot.drawing.sheets import shared_scale
+from vectorplot.drawing.title_block import DrawingScale
 from vectorplot.errors import InputError
 from vectorplot.geometry import box
 

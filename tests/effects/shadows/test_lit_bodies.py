@@ -22,7 +22,7 @@ from vectorplot.scene.view import View, look
 from vectorplot.surfaces import Sphere
 from vectorplot.testing.shapes import box, bumpy_icosphere, torus_mesh
 from vectorplot.visibility.painter.image_faces import drawn_faces
-from vectorplot.visibility.projected_faces import project_faces
+from vectorplot.visibility.projected_faces import body_sides, project_faces
 
 LAMPS = (Light((1.0, 0.4, 6.0)), Light((0.6, -0.2, 1.0), parallel=True), Light((0.1, 0.2, 2.1)))
 
@@ -39,7 +39,8 @@ def view_of_meshes(*meshes: Mesh) -> View:
 def bodies_of(view: View, light: Light, off: float = 0.0) -> LitBodies:
     planes, system = FacePlanes.of(view), light_system(view, light)
     facing = system.facing(planes, view.tolerance)
-    return lit_bodies(view, planes, system, facing, view.occludes, np.full(len(view.occludes), off))
+    every, offs = np.arange(view.face_count), np.full(len(view.occludes), off)
+    return lit_bodies(view, planes, system, facing, view.occludes, offs, body_sides(view), every)
 
 
 @pytest.mark.parametrize("light", LAMPS)

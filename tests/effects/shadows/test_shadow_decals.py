@@ -376,7 +376,7 @@ def test_boxes_and_depths_in_the_light_system_lose_no_shadow(light: Light) -> No
     projected, planes, system = project_faces(view), FacePlanes.of(view), light_system(view, light)
     facing = system.facing(planes, view.tolerance)
     solids = solid_items(view, projected)
-    casters = shadow_casters(view, planes, system, facing, view.occludes, solids)
+    casters = shadow_casters(view, planes, system, facing, view.occludes, solids, projected.sides)
     seen = drawn(view)
     receivers = Receivers.of(view, seen[facing[seen] * projected.facing[seen] > 0])
     found = [pair for batch in candidates(view, system, casters, receivers) for pair in zip(*batch, strict=True)]

@@ -24,6 +24,18 @@ ALIKE = {
     'leader "hole" at 0 0 0 to 3 4 0': vp.leader(A, B, "hole"),
     "centre_line from 0 0 0 to 3 4 0": vp.centre_line(A, B),
     "centre_mark at 0 0 0 radius 2 axis 3 4 0": vp.centre_mark(A, 2, B),
+    "chain_dimension at 0 0 0, 3 4 0, 6 8 0 offset 0 0 -2 gap 0.5 beyond 1": vp.chain_dimension(
+        [A, B, (6, 8, 0)], C, gap=0.5, beyond=1
+    ),
+    "baseline_dimension at 0 0 0, 3 4 0, 6 8 0 offset 0 0 -2 step 1.5": vp.baseline_dimension(
+        [A, B, (6, 8, 0)], C, step=1.5
+    ),
+    "ordinate_dimension at 0 0 0, 3 4 0, 6 8 0 offset 0 0 -2 apart 6 size 2": vp.ordinate_dimension(
+        [A, B, (6, 8, 0)], C, apart=6, size_mm=2
+    ),
+    'chamfer "<> x 45" from 0 0 2 to 2 0 0 at 5 0 5': vp.chamfer((0, 0, 2), (2, 0, 0), (5, 0, 5), "<> x 45"),
+    "thread from 0 0 0 to 3 4 0 radius 2": vp.thread(A, B, 2),
+    "threaded_hole from 0 0 0 to 3 4 0 radius 2": vp.threaded_hole(A, B, 2),
 }
 
 
@@ -55,6 +67,16 @@ def test_every_word_is_tried():
         ("axes 0", "one positive length"),
         ("angle at 0 0 0 from 1 0 0 to 2 0 0 radius 1", "not in one line"),
         ("centre_mark at 0 0 0 radius 0", "a positive radius"),
+        ("chain_dimension at 0 0 0 offset 0 0 -2", "two points or more"),
+        ("chain_dimension at 0 0 0, 0 0 -1 offset 0 0 -2", "in line with the offset"),
+        ("chain_dimension at 0 0 0, 1 0 -3 offset 0 0 -2", "beyond the dimension line"),
+        ("baseline_dimension at 0 0 0, 1 0 0 offset 0 0 -2 step 0", "a step of 0"),
+        ("ordinate_dimension at 0 0 0, 1 0 0 offset 0 0 -2 apart -1", "-1 apart"),
+        ("chamfer from 0 0 0 to 1 1 1 at 5 5 5", "slopes along two"),
+        ("thread from 0 0 0 to 0 0 5 radius 0", "a positive radius"),
+        ("measures", "expected decimals, zeros or comma"),
+        ("measures decimals 12", "expected 0 to 9"),
+        ("measures zeros zeros", "a second 'zeros'"),
         ("arrow from 0 0 to 1 0 0", "expected a number for from"),
     ],
 )

@@ -7,10 +7,9 @@ import vectorplot as vp
 from vectorplot.geometry import box
 from vectorplot.geometry.boxes import overlapping_pairs
 from vectorplot.scene import look
-from vectorplot.visibility.painter import unseen
+from vectorplot.visibility import projected_faces
 from vectorplot.visibility.painter.image_faces import drawn_faces
-from vectorplot.visibility.painter.unseen import body_sides
-from vectorplot.visibility.projected_faces import project_faces
+from vectorplot.visibility.projected_faces import body_sides, project_faces
 
 
 def _closed_grid(of, across, along):
@@ -169,7 +168,7 @@ def test_bodies_seen_whole_from_their_middle_are_not_searched_for_crossings(monk
         searched.append(low.shape[1])
         return overlapping_pairs(low, high)
 
-    monkeypatch.setattr(unseen, "overlapping_pairs", pairs)
+    monkeypatch.setattr(projected_faces, "overlapping_pairs", pairs)
     assert body_sides(_view(*_ball(12), 0)).tolist() == [1]
     points, triangles = EMBEDDED["torus"]
     assert body_sides(_view(points, triangles, 0)).tolist() != [0]

@@ -39,7 +39,7 @@ def square(name: str, low: float, high: float, height: float, **what) -> vp.Item
 def unseen_in(*items: vp.Item, budget: Budget = USUAL) -> list[bool]:
     view = look(vp.Scene(items), ABOVE)
     every = np.ones(view.face_count, dtype=np.bool_)
-    return unseen_faces(view, project_faces(view), every, ~every, budget).tolist()
+    return unseen_faces(view, project_faces(view), every, ~every, budget.pairs).tolist()
 
 
 def test_what_is_below_something_larger_is_not_seen():

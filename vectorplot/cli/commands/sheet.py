@@ -14,17 +14,22 @@ from vectorplot.cli.options import (
     CUT_SPACING,
     DRAWING_FORMATS,
     EXPLAIN,
+    EXPLODE,
     INPUT,
     LANDSCAPE,
+    MEASURE_OPTIONS,
     OUT,
     QUIET,
+    TEXT,
     VIEW_WORDS,
+    check_overlaid,
     crease_angle_option,
     drawing_format,
     format_option,
+    moved_apart,
     with_options,
 )
-from vectorplot.cli.picture import Source, make_pages, make_picture, warn_of_nothing
+from vectorplot.cli.picture import ReadSource, Source, make_pages, make_picture, reported_warnings, warn_of_nothing
 
 if TYPE_CHECKING:
     from vectorplot.cli.picture import Report
@@ -37,6 +42,18 @@ def _name_of_mesh(path: str) -> str:
     from vectorplot.io.read_mesh import MESH_SUFFIXES
 
     return Path(path).stem if Path(path).suffix.lower() in MESH_SUFFIXES else ""
+
+
+_OF_ASSEMBLY = {"title": None, "section": (), "detail_view": (), "breakout": (), "balloons": False, "parts_list": False}
+"""What the sheets of parts have not, as that of the whole has."""
+
+
+def _field(text: str) -> tuple[str, str]:
+    """NAME=TEXT."""
+    name, sign, said = text.partition("=")
+    if not sign or not name.strip():
+        raise click.BadParameter(f"{text!r}: expected NAME=TEXT, such as MATERIAL=S235")
+    return name.strip(), said
 
 
 @click.command(short_help="Draw main views of a part on one sheet.", context_settings={"show_default": True})
@@ -58,18 +75,47 @@ def _name_of_mesh(path: str) -> str:
         "--unit",
         type=click.Choice(["mm", "cm", "m", "in"]),
         default="mm",
-        help="What a unit of the part is; the sheet is in mm whatever it is.",
+        help="What a unit of the part is; sections, details and the scale are in mm whatever it is.",
     ),
+    click.option(
+        "--standard",
+        type=click.Choice(["iso", "asme"]),
+        default="iso",
+        help="What is usual: first angle, A3, measures above lines; or third angle, tabloid, level measures.",
+    ),
+    click.option(
+        "--measured-in", type=click.Choice(["mm", "cm", "m", "in"]), help="The unit of all measures.  [default: mm]"
+    ),
+    *MEASURE_OPTIONS,
     click.option(
         "--projection",
         type=click.Choice(["first", "third"]),
-        default="first",
-        help="Views opposite to the side they are seen from, or on it.",
+        help="Views opposite to the side they are seen from, or on it.  [default: first, of asme third]",
     ),
-    click.option("--page", default="A3", metavar="SIZE", help="A0 to A6, letter, ... or WIDTHxHEIGHT in mm."),
+    click.option(
+        "--page", metavar="SIZE", help="A0 to A6, letter, ... or WIDTHxHEIGHT in mm.  [default: A3, of asme tabloid]"
+    ),
     LANDSCAPE,
-    click.option("--section", multiple=True, metavar="AXIS=PLACE", help="A section view, as y=12; repeat it for more."),
+    click.option(
+        "--section",
+        multiple=True,
+        metavar="AXIS=PLACE",
+        help="A section view, as y=12, 'half y=12', 'y=12 | x=20 | y=30' or 'aligned z at 0,0 from 180 to 60'; "
+        "repeat it for more.",
+    ),
     CUT_SPACING,
+    click.option(
+        "--detail-view",
+        multiple=True,
+        metavar="VIEW:X,Y,Z,R[,A:B]",
+        help="What is in a circle of a view, larger and apart; repeat it for more.",
+    ),
+    click.option(
+        "--breakout",
+        multiple=True,
+        metavar="VIEW:X,Y,Z,R",
+        help="A local section through a point, in a circle of a view; repeat it for more.",
+    ),
     click.option("--dimensions", is_flag=True, help="How long the part is along x, y and z."),
     click.option("--centre-lines", is_flag=True, help="Of bores, shafts and other round edges of meshes."),
     click.option("--frame", is_flag=True, help="A border with centring marks and zones."),
@@ -84,6 +130,20 @@ def _name_of_mesh(path: str) -> str:
     click.option("--author", default="", metavar="TEXT", show_default=False, help="Who has drawn it."),
     click.option("--date", default="", metavar="TEXT", show_default=False, help="As it is to be written."),
     click.option("--sheet", metavar="TEXT", help="The number of the sheet, such as 1/2.  [default: 1, or 1/2 of two]"),
+    click.option(
+        "--field",
+        "fields",
+        type=_field,
+        multiple=True,
+        metavar="NAME=TEXT",
+        help="A free field of the title block, as MATERIAL=S235; repeat it for more.",
+    ),
+    click.option("--block-template", metavar="FILE", help="A TOML file with the rows and cells of the title block."),
+    click.option("--balloons", is_flag=True, help="Numbers of parts around the iso view, or the first one."),
+    click.option("--parts-list", is_flag=True, help="A list of the parts on the title block."),
+    click.option("--each-part", is_flag=True, help="Then a sheet of each part, all as the pages of one PDF."),
+    EXPLODE,
+    TEXT,
     crease_angle_option("Sharper edges are creases."),
     EXPLAIN,
     QUIET,
@@ -93,29 +153,58 @@ def sheet(scene_file: tuple[str, ...], out: str, format_: str | None, quiet: boo
     write OUT (svg, ps, eps, pdf, png, tex, dxf, json).
 
     A named page lies on the side that gives the views more room. Several INPUTs become a sheet each, the pages of one
-    PDF.
+    PDF; so do the parts of one with --each-part.
     """
     from vectorplot.pictures.nothing_seen import why_nothing
+    from vectorplot.pictures.sheet_annotations import part_scenes
     from vectorplot.pictures.technical_sheet import technical_sheet
     from vectorplot.scene.page import Page
 
     if told.pop("landscape"):
-        told["page"] = f"{told['page'].split(' ')[0]} landscape"
+        usual = "tabloid" if told["standard"] == "asme" else "A3"
+        told["page"] = f"{(told['page'] or usual).split(' ')[0]} landscape"
     asked, upright = told.pop("sheet"), told["up"] is not None
-    told |= {"cut_spacing_mm": told.pop("cut_spacing"), "title": told["title"] or None}
+    told |= {"cut_spacing_mm": told.pop("cut_spacing"), "title": told["title"] or None, "fields": dict(told["fields"])}
+
+    apart, each_part = told.pop("explode"), told.pop("each_part")
+    sources = [Source((one,), upright=upright) for one in scene_file]
+    if each_part:
+        if len(sources) > 1:
+            raise click.UsageError("--each-part is of one INPUT")
+        with reported_warnings(quiet=quiet):
+            whole = sources[0].read()
+        sources = [ReadSource(scene_file, scene=one) for one in (whole, *part_scenes(whole))]
 
     def page(number: int, scene: Scene, report: Report) -> Drawing:
-        usual = "1" if len(scene_file) == 1 else f"{number + 1}/{len(scene_file)}"
+        usual = "1" if len(sources) == 1 else f"{number + 1}/{len(sources)}"
         said = usual if asked is None else asked
-        named = replace(scene, title=scene.title or _name_of_mesh(scene_file[number]))
-        made = technical_sheet(named, **told, sheet=said, progress=report.progress, explain=report.explain)
-        warn_of_nothing(Source((scene_file[number],)), made, lambda: why_nothing(scene, None, Page()))
+        of_part = each_part and number > 0
+        options = {**told, **_OF_ASSEMBLY} if of_part else told
+        shown = scene if of_part else moved_apart(scene, apart)
+        named = replace(shown, title=scene.title or _name_of_mesh(sources[number].paths[0]))
+        made = technical_sheet(named, **options, sheet=said, progress=report.progress, explain=report.explain)
+        warn_of_nothing(sources[number], made, lambda: why_nothing(scene, None, Page()))
         return made
 
     written = drawing_format(out, format_)
-    if len(scene_file) > 1:
+    overlaid = told["text"] == "latex"
+    if overlaid:
+        told["text"] = "real"
+        check_overlaid(out, written)
+    if len(sources) > 1:
         if written != "pdf":
-            raise click.UsageError("several INPUTs become the pages of a PDF: OUT must end in .pdf")
-        make_pages([Source((one,), upright=upright) for one in scene_file], out, page, quiet=quiet, explain=explain)
+            several = "the sheets of parts" if each_part else "several INPUTs"
+            raise click.UsageError(f"{several} become the pages of a PDF: OUT must end in .pdf")
+        if overlaid:
+            raise click.UsageError("--text latex is of one sheet")
+        make_pages(sources, out, page, quiet=quiet, explain=explain)
         return
-    make_picture(Source(scene_file, upright=upright), out, written, partial(page, 0), quiet=quiet, explain=explain)
+    make_picture(
+        sources[0],
+        out,
+        written,
+        partial(page, 0),
+        quiet=quiet,
+        explain=explain,
+        overlaid=overlaid,
+    )

@@ -16,8 +16,7 @@ from vectorplot.geometry.polygon_cuts import clipped_by_convex
 from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, LineElements
 from vectorplot.geometry.records import IN_COLUMNS
 from vectorplot.scene.view import View
-from vectorplot.visibility.painter.unseen import body_sides
-from vectorplot.visibility.projected_faces import EVERYWHERE, ProjectedFaces
+from vectorplot.visibility.projected_faces import EVERYWHERE, ProjectedFaces, body_sides
 
 # Faces after the projective map that makes all sight lines parallel: planes stay planes, and every face is a convex
 # polygon over its image.
@@ -83,7 +82,7 @@ def drawn_faces(view: View, faces: ProjectedFaces) -> Ints:
     in a body sees its inner walls.
     Source: Glaeser, section 5.1; erratum G5-09.
     """
-    side = body_sides(view)
+    side = faces.sides.copy()
     side[view.face_item[~np.isfinite(faces.nearest) | (faces.box[1] >= EVERYWHERE)]] = 0
     kept = (faces.facing != 0) & np.isfinite(faces.nearest)
     return np.flatnonzero(kept & (side[view.face_item] * faces.facing >= 0))

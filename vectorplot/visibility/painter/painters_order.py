@@ -10,7 +10,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged, records
-from vectorplot.geometry.budget import USUAL, Budget
+from vectorplot.geometry.budget import USUAL, Budget, may_stop
 from vectorplot.geometry.polylines import joined
 from vectorplot.scene.surface_lines import Section
 from vectorplot.scene.view import View
@@ -498,6 +498,28 @@ def overlapping_pairs(faces: ImageFaces, some: Ints, tolerance: float) -> tuple[
         found.append(pair[:, overlapping(outlines, pair[0], pair[1], tolerance)])
     before, after = np.concatenate(found, axis=1)
     return before, after, some[:known]
+
+
+def picture_layers(faces: ImageFaces, unit: Ints, tolerance: float) -> Ints | None:
+    """(n,) the layers of polygons, given back to front: 0 for those that no other one covers in part, one more for what
+    those of a layer cover. Those with one number (n,), ascending, are in one layer. Polygons of one layer overlap in no
+    inner point, but for those of one number: they may be painted in any order, all of a layer before those of the next
+    lower one.
+    Edge cases: None where too many lie on one another, see MOST_OVERLAPS.
+    """
+    before, after, known = overlapping_pairs(faces, np.arange(len(faces)), tolerance)
+    if len(known) < len(faces):
+        return None
+    below, above = unit[before], unit[after]
+    below, above = below[below != above], above[below != above]
+    layer = np.zeros(int(unit.max(initial=-1)) + 1, dtype=np.intp)
+    moved = np.ones(len(layer), dtype=np.bool_)
+    while len(some := np.flatnonzero(moved[above])):
+        may_stop()
+        former = layer.copy()
+        np.maximum.at(layer, below[some], layer[above[some]] + 1)
+        moved = layer != former
+    return layer[unit]
 
 
 def group_ranks(count: int, before: Ints, after: Ints, owner: Ints) -> tuple[Ints, tuple[int, ...]]:

@@ -1,0 +1,190 @@
+"""Sections, details and local sections on technical sheets: where they cut, and what they show, in closed forms."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from technical.test_technical_sheet import BRICK, layer, outlines, strokes_of
+
+import vectorplot as vp
+from vectorplot.drawing.strokes import inside_ring, outside_ring
+from vectorplot.geometry import box, prism, regular_polygon
+from vectorplot.pictures.sheet_views import sections_of
+
+
+def plate():
+    """40 x 20 x 6, with two square holes of 4, about (8, 6) and (32, 14)."""
+    holes = [
+        [(x - 2, y - 2, 0), (x + 2, y - 2, 0), (x + 2, y + 2, 0), (x - 2, y + 2, 0)] for x, y in ((8, 6), (32, 14))
+    ]
+    return vp.Item("plate", prism([(0, 0, 0), (40, 0, 0), (40, 20, 0), (0, 20, 0)], (0, 0, 6), holes=holes))
+
+
+def hatched(sheet):
+    """(x, x) from where to where hatches reach, in each hatched area of the sheet, from left to right, with 1:1."""
+    points = np.concatenate([part for _, part in strokes_of(sheet, "hatch")])
+    x = np.sort(points[:, 0])
+    ends = np.flatnonzero(np.diff(x) > 3.0)
+    return np.column_stack([x[np.append(0, ends + 1)], x[np.append(ends, len(x) - 1)]])
+
+
+@pytest.mark.slow
+def test_an_offset_section_goes_through_both_holes():
+    one = vp.technical_sheet(plate(), views="front,top", section="y=6", scale="1:1")
+    both = vp.technical_sheet(plate(), views="front,top", section="y=6 | x=20 | y=14", scale="1:1")
+    for sheet, gaps in ((one, [6.0]), (both, [6.0, 30.0])):
+        areas = hatched(sheet)
+        areas = areas - areas[0, 0]
+        assert len(areas) == len(gaps) + 1
+        assert np.allclose(areas[:-1, 1], gaps, atol=1e-6) and np.allclose(areas[1:, 0], np.array(gaps) + 4.0)
+    line = np.concatenate([part for _, part in strokes_of(both, "cutting line")])
+    top = max(outlines(both)[:2], key=lambda one: float(np.ptp(one[:, 1])))
+    assert line[:, 1].min() == pytest.approx(top[0, 1] + 6.0) and line[:, 1].max() == pytest.approx(top[0, 1] + 14.0)
+    assert len(strokes_of(both, "cutting ends")) == 4
+
+
+@pytest.mark.slow
+def test_a_half_section_is_hatched_at_the_right_alone_and_has_its_axis():
+    sheet = vp.technical_sheet(BRICK, views="front,top", section="half y=10", scale="1:1")
+    points = np.concatenate([part for _, part in strokes_of(sheet, "hatch")])
+    middle, low = points.min(axis=0)
+    assert np.ptp(points, axis=0) == pytest.approx([20.0, 10.0], abs=1e-6)
+    whole = outlines(sheet)
+    left = whole[np.abs(whole[:, 1, 0] - middle) < 1e-6]
+    assert len(left) and np.ptp(left[0], axis=0) == pytest.approx([20.0, 10.0])
+    thin = np.concatenate([part for _, part in strokes_of(sheet, "thin")])
+    upright = thin[(np.abs(thin[:, 0] - middle) < 1e-6) & (np.abs(thin[:, 1] - low) < 20.0)]
+    assert np.ptp(upright[:, 1]) == pytest.approx(18.0, abs=1e-6)
+    arrows = [part for _, part in strokes_of(sheet, "cutting ends")]
+    assert len(arrows) == 3
+
+
+@pytest.mark.slow
+def test_an_aligned_section_shows_both_arms_in_full():
+    """A bar of 20 to the left of an axis, one of 30 at 60 degrees from it: side by side they are 50 long."""
+    left = vp.Item("left", box((20, 4, 6)).moved(-20, -2, 0))
+    right = vp.Item("right", box((30, 4, 6)).moved(0, -2, 0).turned("z", 60))
+    asked = {"views": "front,top", "scale": "1:1"}
+    sheet = vp.technical_sheet([left, right], section="aligned z at 0,0 from 180 to 60", **asked)
+    areas = np.concatenate([part for _, part in strokes_of(sheet, "hatch")])
+    assert np.ptp(areas[:, 0]) == pytest.approx(50.0, abs=1e-6) and np.ptp(areas[:, 1]) == pytest.approx(6.0, abs=1e-6)
+    ends = np.array([part for _, part in strokes_of(sheet, "cutting ends") if len(part) == 2])
+    ways = np.degrees(np.arctan2(*(ends[:, 1] - ends[:, 0]).T[::-1])) % 360.0
+    assert sorted(np.round(ways, 6).tolist()) == [60.0, 180.0]
+
+
+@pytest.mark.parametrize("axis", "xyz")
+def test_halves_of_aligned_sections_are_beside_each_other(axis):
+    (section,) = sections_of(
+        f"aligned {axis} at 1,2 from 200 to 20", ("front", "top", "left"), np.array([[-9] * 3, [9] * 3])
+    )
+    assert section.turn_axis == "xyz".index(axis) and len({section.axis, section.across, section.turn_axis}) == 3
+    low, high = section.zones
+    assert low.high == high.low and (low.turn_deg - high.turn_deg) % 360.0 == pytest.approx(0.0)
+
+
+@pytest.mark.parametrize(
+    ("section", "cause"),
+    [
+        ("half", "expected x, y or z"),
+        ("y=6 | y=8 | y=14", "planes of one axis with steps"),
+        ("y=6 | x=20", "planes of one axis with steps"),
+        ("y=6 | x=30 | y=14 | x=20 | y=6", "planes of one axis with steps"),
+        ("aligned z at 0,0 from 180", "expected x, y or z"),
+        ("half y=60", "beside the part"),
+    ],
+)
+def test_sections_that_cannot_be(section, cause):
+    with pytest.raises(vp.InputError, match=cause):
+        vp.technical_sheet(BRICK, section=section)
+
+
+@pytest.mark.slow
+def test_a_detail_is_so_much_larger_and_inside_of_its_circle():
+    sheet = vp.technical_sheet(BRICK, views="front", detail_view="front:40,0,10,4,5:1", scale="1:1")
+    rings = sorted(
+        (part for _, part in strokes_of(sheet, "thin") if len(part) > 50), key=lambda one: float(np.ptp(one[:, 0]))
+    )
+    small, large = rings[0], rings[-1]
+    assert np.ptp(small[:, 0]) == pytest.approx(8.0) and np.ptp(large[:, 0]) == pytest.approx(40.0)
+    middle = large.mean(axis=0)
+    inside = [part for _, part in strokes_of(sheet, "contour") if np.hypot(*(part - middle).T).max() < 20.01]
+    corner = np.concatenate(inside)
+    assert len(corner) and np.hypot(*(corner - middle).T).min() == pytest.approx(0.0, abs=1e-6)
+    assert np.hypot(*(corner - middle).T).max() == pytest.approx(20.0, rel=1e-3)
+    assert small.mean(axis=0) == pytest.approx(outlines(sheet)[0][1], abs=1e-6)
+
+
+@pytest.mark.slow
+def test_a_detail_without_a_scale_has_the_next_standard_one():
+    texts = vp.technical_sheet(BRICK, views="front", detail_view="front:40,0,10,4", scale="1:2", text="real")
+    words = {string for one in texts.layers for real in one.texts for string in real.strings}
+    assert {"A", "A (1:1)", "1:2"} <= words
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("x", "cut"), [(30, True), (10, False)])
+def test_a_detail_of_a_half_section_is_of_the_half_that_it_is_in(x, cut):
+    told = {"views": "front,top", "section": "half y=10", "scale": "1:1"}
+    plain, sheet = (vp.technical_sheet(BRICK, **told, **more) for more in ({}, {"detail_view": f"A:{x},0,10,3"}))
+    assert (len(strokes_of(sheet, "hatch")) > len(strokes_of(plain, "hatch"))) is cut
+
+
+@pytest.mark.slow
+def test_a_local_section_is_hatched_in_its_border_alone():
+    """Hidden lines of a bore end where it is cut open."""
+    bore = regular_polygon(24, 3, centre=(20, 10, 0))
+    block = vp.Item("block", prism([(0, 0, 0), (40, 0, 0), (40, 20, 0), (0, 20, 0)], (0, 0, 12), holes=[bore]))
+    closed, opened = (
+        vp.technical_sheet(block, views="front", scale="1:1", breakout=told) for told in ((), "front:20,10,6,5")
+    )
+    assert layer(closed, "hatch") is None
+    front = outlines(closed)[0]
+    middle = front.mean(axis=0)
+    hatches = np.concatenate([part for _, part in strokes_of(opened, "hatch")])
+    assert np.hypot(*(hatches - middle).T).max() < 5.0 * 1.09
+    hidden = np.concatenate([part for _, part in strokes_of(opened, "hidden")])
+    assert np.hypot(*(hidden - middle).T).min() > 5.0 * 0.91
+    border = [part for _, part in strokes_of(opened, "thin") if len(part) > 20]
+    assert border and all((part >= front[0] - 1e-6).all() and (part <= front[1] + 1e-6).all() for part in border)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("told", "cause"),
+    [
+        ({"detail_view": "front:1,2,3"}, "a view, a point and a radius such as"),
+        ({"detail_view": "front:1,2,3,4,5"}, "expected two numbers such as 1:2"),
+        ({"detail_view": "back:1,2,3,4"}, "there is no view 'back' on the sheet: front, A"),
+        ({"detail_view": "front:1,2,3,-4"}, "a radius"),
+        ({"breakout": "A:1,2,3,4"}, "there is no view 'A' on the sheet: front$"),
+        ({"breakout": "front:1,2,3,4,5:1"}, "a radius such as"),
+    ],
+)
+def test_circles_that_cannot_be(told, cause):
+    with pytest.raises(vp.InputError, match=cause):
+        vp.technical_sheet(BRICK, views="front", section="y=10", **told)
+
+
+@pytest.mark.slow
+def test_views_stand_where_the_scale_is_the_largest():
+    """A long part with a section: below its view it is twice as large as beside it."""
+    bar = vp.Item("bar", box((150, 20, 20)))
+    sheet = vp.technical_sheet(bar, views="front", section="y=10", page="A4")
+    assert sheet.title == "1:1"
+    front, seen = outlines(sheet)
+    assert seen[1, 1] < front[0, 1] or front[1, 1] < seen[0, 1]
+
+
+def test_strokes_are_divided_at_a_ring():
+    """A segment through a square, one outside of it, a closed stroke around a corner."""
+    ring = np.array([(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)])
+    paths = vp.Paths.of_polylines(
+        [[(-3, 0.5), (3, 0.5)], [(-3, 2), (3, 2)], [(0, 0), (2, 0), (2, 2), (0, 2)]], closed=[False, False, True]
+    )
+    inner, outer = inside_ring(paths, ring), outside_ring(paths, ring)
+    lengths = [
+        [float(np.hypot(*np.diff(part, axis=0).T).sum()) for part in np.split(some.points, some.offsets[1:-1])]
+        for some in (inner, outer)
+    ]
+    assert lengths[0] == pytest.approx([2.0, 1.0, 1.0]) and lengths[1] == pytest.approx([2.0, 2.0, 6.0, 6.0])
