@@ -272,6 +272,7 @@ MATERIALS = {
     "plastic": "plastic",
     "transparent": "transparent",
     "mirror": "mirror",
+    "unlit": "unlit",
 }
 """Words for physical properties, and the material each one names."""
 

@@ -21,7 +21,7 @@ from vectorplot.scene.item import Item
 from vectorplot.scene.scales import Fields
 from vectorplot.scene.scene import Scene
 
-MESH_SUFFIXES = (".obj", ".off", ".ply", ".stl", ".glb")
+MESH_SUFFIXES = (".obj", ".off", ".ply", ".stl", ".glb", ".vtk", ".vtu")
 
 
 def mesh_scene(path: Path) -> Scene:
@@ -90,6 +90,10 @@ def _mesh_reader(suffix: str) -> Callable[[Path], MeshFile] | None:
         from vectorplot.io.glb import read_glb
 
         return read_glb
+    if suffix in (".vtk", ".vtu"):
+        from vectorplot.io.cells import read_cells
+
+        return read_cells
     return None
 
 

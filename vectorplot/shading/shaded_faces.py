@@ -343,7 +343,8 @@ def item_colours(items: Sequence[Item], item: Ints, shade: Floats, count: int = 
     """
     number = {name: k for k, name in enumerate(dict.fromkeys(some.colour for some in items))}
     which = np.array([number[some.colour] for some in items], dtype=np.intp)
-    return shaded_colours(list(number), which[item], shade, count)
+    unlit = np.array([some.material.is_unlit for some in items], dtype=np.bool_)
+    return shaded_colours(list(number), which[item], np.where(unlit[item], 1.0, shade), count)
 
 
 def _in_view(view: View, light: Light) -> tuple[float, float, float]:

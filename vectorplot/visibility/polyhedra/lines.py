@@ -14,6 +14,8 @@ from vectorplot.features.mesh_edge_lines import Edges, Faces, mesh_edges, smooth
 from vectorplot.features.mesh_intersections import face_intersections, self_intersections_of_parts
 from vectorplot.features.mesh_lines import (
     MeshCurves,
+    curves_of_values,
+    face_triangles,
     mesh_isophote_edges,
     mesh_isophotes,
     mesh_plane_sections,
@@ -37,11 +39,11 @@ from vectorplot.scene.item import Item
 from vectorplot.scene.page import Page
 from vectorplot.scene.placement import Placement, field_of_vision
 from vectorplot.scene.scene import Scene
-from vectorplot.scene.surface_lines import Roads, Serpentine, TerrainLines, WaterCourses
+from vectorplot.scene.surface_lines import FieldContours, Roads, Serpentine, TerrainLines, WaterCourses, round_heights
 from vectorplot.scene.view import View, first_coincident
 from vectorplot.tolerances import CUT_EDGE_OF_EXTENT
 from vectorplot.visibility.projected_faces import ProjectedFaces
-from vectorplot.words import FEATURE_KINDS, LineKind
+from vectorplot.words import FEATURE_KINDS, LineKind, unknown
 
 if TYPE_CHECKING:
     from vectorplot.visibility.smooth.traced_curves import ChordParts
@@ -412,6 +414,9 @@ def mesh_curve_lines(
                 if section.kind in wanted:
                     found = mesh_plane_sections(item.shape, section.normal, section.offsets)
                     parts.append(_lines_of_curves(view, found, section.kind, number, item.curves.smooth))
+            for asked_values in item.curves.contours if LineKind.SECTION in wanted else ():
+                found = _field_contours(item, item.shape, asked_values)
+                parts.append(_lines_of_curves(view, found, LineKind.SECTION, number, item.curves.smooth))
             if LineKind.INTEGRAL in wanted and item.curves.integral:
                 from vectorplot.visibility.polyhedra.smooth_lines import item_integral_lines
 
@@ -430,6 +435,19 @@ def mesh_curve_lines(
                 for kind, found in item_feature_lines(item, item.shape, view, features).items():
                     parts.append(_lines_of_curves(view, found, kind, number, True))
     return joined_lines(parts)
+
+
+def _field_contours(item: Item, mesh: Mesh, asked: FieldContours) -> MeshCurves:
+    """The lines on which a field of an item has some values. Errors: InputError for one that it has not at vertices."""
+    at_vertices = () if item.fields is None else tuple(item.fields.at_vertices)
+    if item.fields is None or asked.name not in at_vertices:
+        raise unknown(f"{item.name}: contours: field at the vertices", asked.name, at_vertices)
+    numbers = item.fields.at(asked.name, mesh.vertices)
+    levels = asked.values
+    if isinstance(levels, int):
+        known = numbers[np.isfinite(numbers)]
+        levels = round_heights(float(known.min()), float(known.max()), levels) if len(known) else ()
+    return curves_of_values(face_triangles(mesh), np.array(levels, dtype=np.float64), lambda level: numbers - level)
 
 
 def _terrain_lines(item: Item, mesh: Mesh, asked: TerrainLines) -> MeshCurves:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable, Collection
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -26,7 +26,7 @@ from vectorplot.features.mesh_streamlines import evenly_spaced_mesh_curves
 from vectorplot.features.nearest import nearest_on_mesh
 from vectorplot.features.shortest_paths import mesh_shortest_paths
 from vectorplot.features.surface_points import USUAL_CREASE_DEG
-from vectorplot.features.tangent_fields import AsymptoticDirections, PrincipalDirections, TangentField
+from vectorplot.features.tangent_fields import AsymptoticDirections, PrincipalDirections, TangentField, VectorField
 from vectorplot.geometry.budget import USUAL, Budget, unheard
 from vectorplot.geometry.component_arrays import cross as component_cross
 from vectorplot.geometry.mesh import Mesh
@@ -42,6 +42,7 @@ from vectorplot.scene.surface_lines import (
     GeodesicsBetween,
     IntegralLines,
     KnownCurves,
+    NamedVectors,
     ShortestPaths,
     check_points,
 )
@@ -76,12 +77,25 @@ def item_integral_lines(
     Warnings: where there are none that go by curvatures. Errors: see mesh_integral_lines, with the item's name.
     """
     try:
+        lines = _with_vectors(item, lines)
         found = mesh_integral_lines(item.mesh, lines, budget, done, crease_angle_deg)
     except InputError as error:
         raise InputError(f"{item.name}: {error.cause}") from None
     if isinstance(lines, FieldLines) and not len(found):
         warn_of_no_lines(item.name, lines.field, crease_angle_deg)
     return found
+
+
+def _with_vectors(item: Item, lines: IntegralLines) -> IntegralLines:
+    """The same, along the vectors of a field of the item where they ask for these by its name."""
+    field = lines.field if isinstance(lines, FieldLines) else None
+    if not isinstance(lines, FieldLines) or not isinstance(field, VectorField):
+        return lines
+    if not isinstance(field.function, NamedVectors):
+        return lines
+    if item.fields is None:
+        raise InputError(f"field lines: there is no field {field.function.name!r}: the item has none")
+    return replace(lines, field=VectorField(item.fields.vectors(field.function.name)))
 
 
 def warn_of_no_lines(name: str, field: TangentField, crease_angle_deg: float) -> None:
