@@ -3,7 +3,7 @@ from .animation.animation import Animation
 from .animation.animation_file import read_animation
 from .drawing.drawing import Drawing, Layer, Paths, Pen
 from .drawing.pens import Style
-from .drawing.sheets import Sheet, contact_sheet
+from .drawing.sheets import Sheet, contact_sheet, panels
 from .effects.cuts import cut
 from .errors import InputError, InputWarning
 from .features.zero_curves import zero_manifold_of_f_uv
@@ -109,6 +109,7 @@ __all__ = [
     "leader",
     "ordinate_dimension",
     "paint",
+    "panels",
     "panorama",
     "part_scenes",
     "radius",

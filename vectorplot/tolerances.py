@@ -24,6 +24,18 @@ VERTICAL_SINE = 1e-15
 """A line of sight whose horizontal part is no longer is vertical: a few roundings of a unit vector, as a camera that
 looks down has azimuth 0 only then."""
 
+TRUE_NORMAL_SINE = 1e-7
+"""Normals that a CAD system tells are wrong by less: a face that makes a smaller angle with the view is seen edge-on.
+Its surfaces are no farther apart at common edges than a ten millionth of their size."""
+
+NO_CAD_NORMAL = 1e-6
+"""Where both parameter lines of a face of a part span an area no larger than this part of what the longest ones of the
+face could, its surface has no normal there: at the tip of a cone, the pole of a ball."""
+
+SEWN_OF_EXTENT = 1e-5
+"""Faces of a file without solids are joined along edges that are no farther apart than this part of all of it: a
+hundredth of a millimetre of a metre, as systems for surfaces have it."""
+
 NO_AZIMUTH_SINE = 1e-6
 """Near the zenith, below this sine, an azimuth has so few digits that the up vector says how a picture stands."""
 
@@ -982,6 +994,18 @@ and what they settle changes by as little."""
 SAME_SHADE = 1e-9
 """Shades of one point, found from two triangles at it, differ by rounding only below this part of a palette; those on
 two sides of a sharp edge by much more."""
+
+SAME_NORMAL = 1e-4
+"""Normals at one corner of facets, interpolated on each of these, differ by rounding only below this; those on two
+sides of a sharp edge by much more."""
+
+SHADOW_CORNER_MM = 1e-4
+"""Corners of shadows on neighbouring facets are one if they are in one cell of this size on the page: a hundredth of
+what is written. They differ by a few tolerances of the view, thousands of times less."""
+
+SAME_AREA = 1e-9
+"""Shadows cover a facet if their areas add up to its own but for such a part: rounding leaves a thousandth of it, and
+such as overlap, or leave some of the facet free, differ by more."""
 
 UNSOLVED = 1e12
 """Control points this many times as far out as the points of a spline are none: the equations have no solution."""

@@ -33,6 +33,7 @@ from vectorplot.backends.shaded_triangles import Underlaps, grown, underlaps
 from vectorplot.drawing.drawing import Drawing, Layer, Pen
 from vectorplot.drawing.fills import SEAM_MM, Fills
 from vectorplot.drawing.sheets import Mark, moved_mark
+from vectorplot.drawing.texts import is_font_file
 from vectorplot.errors import InputError, not_installed
 from vectorplot.geometry import ragged
 from vectorplot.shading.image import DPI, Bytes, with_meaning
@@ -385,6 +386,17 @@ _BITS_OF_PLACES = 16
 """A place is off by less than one part in 130,000 of the size of the mesh."""
 
 
+_PAGE_GROUP = re.compile(
+    rb"(/Contents \d+ 0 R\n) +/Group <<\s+/Type /Group\s+/S /Transparency\s+/I true\s+/CS /DeviceRGB\s+>>"
+)
+
+
+def without_page_groups(data: bytes) -> bytes:
+    """A PDF file of cairo with blanks where a page is said to be a group of transparency: TeX wants no more than one of
+    these on a page of its own, and blends the same without."""
+    return _PAGE_GROUP.sub(lambda found: found[1] + b" " * (len(found[0]) - len(found[1])), data)
+
+
 def with_triangles_in_pdf(data: bytes) -> bytes:
     """A PDF file of cairo with triangles instead of patches."""
     table = data.rindex(b"\nxref\n") + 1
@@ -459,7 +471,9 @@ FAMILY = "sans-serif"
 
 def show(context: cairo.Context[Any], texts: PageTexts, scale: float, height: float) -> None:
     """Write the texts; scale: device units per micron; height: of the page's lower border in them, from the top."""
-    context.select_font_face(FAMILY, cairo.FONT_SLANT_NORMAL, cairo.FONT_WEIGHT_NORMAL)
+    if is_font_file(texts.font):
+        raise InputError(f"font {texts.font}: a file is for .svg; others take installed fonts by their names")
+    context.select_font_face(texts.font or FAMILY, cairo.FONT_SLANT_NORMAL, cairo.FONT_WEIGHT_NORMAL)
     for x, y, size, turn, anchor, colour, string in texts.lines(texts.plain):
         context.save()
         context.set_source_rgb(*(int(colour[k : k + 2], 16) / 255.0 for k in (1, 3, 5)))
@@ -536,7 +550,7 @@ def pdf_bytes(drawing: Drawing) -> bytes:
         surface.set_metadata(cairo.PDFMetadata.TITLE, page.title)
     draw_page(surface, page, height)
     surface.finish()
-    return with_triangles_in_pdf(stream.getvalue())
+    return with_triangles_in_pdf(without_page_groups(stream.getvalue()))
 
 
 def png_bytes(drawing: Drawing, dpi: float = DPI) -> bytes:
@@ -750,4 +764,4 @@ def pdf_pages_bytes(drawings: Iterable[Drawing], title: str = "") -> bytes:
         surface.set_size(page.width * POINTS_PER_MICRON, height)
         draw_page(surface, page, height)
     surface.finish()
-    return with_triangles_in_pdf(stream.getvalue())
+    return with_triangles_in_pdf(without_page_groups(stream.getvalue()))

@@ -21,6 +21,8 @@ from vectorplot.drawing.texts import Texts
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
 from vectorplot.geometry.weld import distinct_points
+from vectorplot.scene.labels import capital_height
+from vectorplot.scene.page import in_latex
 from vectorplot.words import LineKind
 
 # Arrays of numbers in JSON.
@@ -259,7 +261,8 @@ def _numbered(numbers: list[int], key: str, least: int) -> Ints:
 
 
 def texts_text(texts: Texts) -> str:
-    """The texts, one a line: ``{"text", "at", "size_mm", "turn_deg", "anchor", "room_mm", "hidden_by"}``."""
+    """The texts, one a line: ``{"text", "at", "size_mm", "turn_deg", "anchor", "room_mm", "hidden_by"}``; and the
+    size's word "latex", where LaTeX has one."""
     rows = zip(
         texts.strings,
         plain(texts.points),
@@ -271,7 +274,10 @@ def texts_text(texts: Texts) -> str:
         strict=True,
     )
     names = ("text", "at", "size_mm", "turn_deg", "anchor", "room_mm", "hidden_by")
-    return ",".join("\n" + json.dumps(dict(zip(names, row, strict=True))) for row in rows)
+    words = ({"latex": word} if word else {} for word in texts.in_latex)
+    return ",".join(
+        "\n" + json.dumps(dict(zip(names, row, strict=True)) | word) for row, word in zip(rows, words, strict=True)
+    )
 
 
 def texts_of(value: Any) -> Texts:
@@ -296,6 +302,7 @@ def texts_of(value: Any) -> Texts:
         anchor,
         numbers("room_mm"),
         numbers("hidden_by").astype(np.intp),
+        tuple(in_latex(capital_height(text["latex"])) if "latex" in text else "" for text in value),
     )
 
 

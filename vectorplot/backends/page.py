@@ -51,7 +51,8 @@ class TextLine(NamedTuple):
 class PageTexts:
     """Lines of text on the page: microns (n,2) int64, y upwards, of the point on the line that letters stand on; type
     (n,), the sizes of type in mm; turn_deg (n,); anchor (n,): 0 begins there, 0.5 has its middle there, 1 ends there;
-    colours: #rrggbb of each."""
+    colours: #rrggbb of each; latex: the words that LaTeX has for the sizes, or
+    none; font: see Drawing."""
 
     strings: tuple[str, ...]
     microns: Ints
@@ -59,6 +60,8 @@ class PageTexts:
     turn_deg: Floats
     anchor: Floats
     colours: tuple[str, ...]
+    latex: tuple[str, ...]
+    font: str
 
     def __len__(self) -> int:
         return len(self.strings)
@@ -77,8 +80,8 @@ class PageTexts:
         return tuple(map(without_formulas, self.strings))
 
 
-def page_texts(texts: Texts, colour: str) -> PageTexts:
-    """Texts in the colour of a pen; those that are hidden in one half as strong."""
+def page_texts(texts: Texts, colour: str, font: str = "") -> PageTexts:
+    """Texts in the colour of a pen, and a font; those that are hidden in one half as strong."""
     faint = "#" + "".join(f"{(int(colour[k : k + 2], 16) + 255) // 2:02x}" for k in (1, 3, 5))
     return PageTexts(
         tuple(plain_text(string) for string in texts.strings),
@@ -87,6 +90,8 @@ def page_texts(texts: Texts, colour: str) -> PageTexts:
         np.round(texts.turn_deg, 3) + 0.0,
         texts.anchor,
         tuple(faint if by else colour for by in texts.hidden_by),
+        texts.in_latex,
+        font,
     )
 
 
@@ -805,7 +810,8 @@ def _ink(drawing: Drawing, layer: Layer, number: int) -> Ink:
             fills = Fills.joined(*(mark for mark in some if isinstance(mark, Fills)))
             parts.append(areas(fills, drawing.width_mm, drawing.height_mm))
         elif kind is Texts:
-            parts.append(page_texts(Texts.joined([mark for mark in some if isinstance(mark, Texts)]), layer.pen.colour))
+            texts = Texts.joined([mark for mark in some if isinstance(mark, Texts)])
+            parts.append(page_texts(texts, layer.pen.colour, drawing.font))
         else:
             parts.append(_lines(drawing, one_mark(tuple(mark for mark in some if isinstance(mark, STROKES)))))
     return Ink(label, layer.pen, tuple(parts))

@@ -9,6 +9,7 @@ import xml.etree.ElementTree as ET
 from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
+from pathlib import Path
 from typing import Any
 from xml.sax.saxutils import escape
 
@@ -30,6 +31,8 @@ from vectorplot.backends.page import (
 )
 from vectorplot.drawing.drawing import Drawing
 from vectorplot.drawing.fills import SEAM_MM
+from vectorplot.drawing.texts import is_font_file
+from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul, pseudo_inverse, singular_decomposition
 from vectorplot.geometry.elementary import arctan2
@@ -516,11 +519,13 @@ _ANCHORS = {0.0: "start", 0.5: "middle", 1.0: "end"}
 def text_elements(texts: PageTexts, height: int) -> bytes:
     """The text elements; y is flipped about the page height in microns, and so are the directions."""
     lines = []
+    own = Path(texts.font).stem if is_font_file(texts.font) else texts.font
+    fonts = f"'{own}', {FONTS}" if own else FONTS
     for x, y, size, turn, anchor, colour, string in texts.lines(texts.plain):
         across, down = f"{x / 1000.0:.10g}", f"{(height - y) / 1000.0:.10g}"
         turned = f' transform="rotate({-turn:g} {across},{down})"' if turn else ""
         lines.append(
-            f'<text x="{across}" y="{down}" font-size="{size:g}" font-family="{FONTS}" stroke="none" fill="{colour}"'
+            f'<text x="{across}" y="{down}" font-size="{size:g}" font-family="{fonts}" stroke="none" fill="{colour}"'
             f' text-anchor="{_ANCHORS[anchor]}"{turned}>{escape(string)}</text>\n'
         )
     return "".join(lines).encode("utf-8")
@@ -670,6 +675,14 @@ def _document(page: PageMarks, prefix: str) -> str:
         size=(f"{width}mm", f"{height}mm"), viewBox=f"0 0 {width} {height}", debug=False, profile="full"
     )
     layers = Inkscape(document)
+    files = {part.font for ink in page.inks for part in ink.parts if isinstance(part, PageTexts)}
+    for file in sorted(filter(is_font_file, files)):
+        try:
+            held = base64.b64encode(Path(file).read_bytes()).decode()
+            face = f"font-family:'{Path(file).stem}';src:url(data:font/{Path(file).suffix[1:].lower()};base64,{held})"
+            document.embed_stylesheet(f"@font-face{{{face}}}")
+        except OSError as error:
+            raise InputError(error.strerror or "cannot be read", file=file) from None
     if page.title:
         document.set_desc(title=page.title)
     for number, ink in enumerate(page.inks, start=1):

@@ -19,7 +19,7 @@ from vectorplot.drawing.letters import clusters
 from vectorplot.drawing.texts import Texts
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
-from vectorplot.scene.page import MM_PER_POINT
+from vectorplot.scene.page import MM_PER_POINT, in_latex
 
 # Colours in the words of PGF/TikZ.
 
@@ -86,9 +86,9 @@ _OVER = {
 def text_nodes(texts: PageTexts) -> bytes:
     """A node for each line, of its size of type, on the line that its letters stand on."""
     lines = []
-    for x, y, size, turn, anchor, colour, string in texts.lines(texts.strings):
+    for (x, y, size, turn, anchor, colour, string), word in zip(texts.lines(texts.strings), texts.latex, strict=True):
         points = size / MM_PER_POINT
-        font = f"\\fontsize{{{points:.4g}bp}}{{{LEADING * points:.4g}bp}}\\selectfont"
+        font = word or f"\\fontsize{{{points:.4g}}}{{{LEADING * points:.4g}}}\\selectfont"
         turned = f",rotate={turn:g}" if turn else ""
         head = f"inner sep=0pt,outer sep=0pt,anchor={_ANCHORS[anchor]},text={colour_of(int(colour[1:], 16))}{turned}"
         lines.append(f"\\node[{head},font={font}] at ({x / 1000.0:.10g},{y / 1000.0:.10g}) {{{latex(string)}}};\n")
@@ -129,6 +129,24 @@ def _letter(character: str) -> str:
     return character
 
 
+# What all pictures have: units, a box as large as the page, and an end.
+
+_END_OF_PICTURE = b"\\end{tikzpicture}%\n"
+"""Without the blank that the end of a line is in TeX: pictures side by side take no more than their widths."""
+
+
+def _units(drawing: Drawing) -> str:
+    """The units of coordinates: mm, or parts of the width that LaTeX knows; letters and pens do not grow with it."""
+    width = in_latex(drawing.width_mm)
+    unit = f"{{{width}/{drawing.width_mm:.10g}}}" if width else "1mm"
+    return f"x={unit},y={unit}"
+
+
+def _page_box(drawing: Drawing) -> str:
+    width = in_latex(drawing.width_mm) or f"{round(drawing.width_mm, 3):.10g}"
+    return f"\\useasboundingbox (0,0) rectangle ({width},{round(drawing.height_mm, 3):.10g});\n"
+
+
 # A picture in a file of its own, and its texts for LaTeX to set over it.
 
 
@@ -147,15 +165,18 @@ def overlay_bytes(drawing: Drawing, picture: str) -> bytes:
     picture: the name that \includegraphics finds the rest of the drawing by, whose box is the page.
     """
     page = page_marks(drawing)
+    width = in_latex(drawing.width_mm)
+    how = [*(["hiresbb"] if picture.endswith(".eps") else []), *([f"width={width}"] if width else [])]
+    options = f"[{','.join(how)}]" if how else ""
     head = (
         "% \\usepackage{tikz}\n"
-        "\\begin{tikzpicture}[x=1mm,y=1mm]\n"
-        f"\\useasboundingbox (0,0) rectangle ({page.width / 1000.0:.10g},{page.height / 1000.0:.10g});\n"
+        f"\\begin{{tikzpicture}}[{_units(drawing)}]\n"
+        f"{_page_box(drawing)}"
         "\\node[inner sep=0pt,outer sep=0pt,anchor=south west] at (0,0)"
-        f" {{\\includegraphics{'[hiresbb]' if picture.endswith('.eps') else ''}{{\\detokenize{{{picture}}}}}}};\n"
+        f" {{\\includegraphics{options}{{\\detokenize{{{picture}}}}}}};\n"
     )
     nodes = b"".join(text_nodes(part) for ink in page.inks for part in ink.parts if isinstance(part, PageTexts))
-    return head.encode("utf-8") + nodes + b"\\end{tikzpicture}\n"
+    return head.encode("utf-8") + nodes + _END_OF_PICTURE
 
 
 # A picture for LaTeX documents, in the commands of PGF/TikZ.
@@ -194,13 +215,11 @@ def tikz_bytes(drawing: Drawing) -> bytes:
         size = f"{drawing.width_mm:g} x {drawing.height_mm:g} mm"
         raise InputError(f"page of {size}: TeX takes at most {LARGEST_PAGE_MM:.0f} mm")
     page = page_marks(drawing)
-    width, height = page.width / 1000.0, page.height / 1000.0
     title = "".join(c if 32 <= ord(c) < 127 else "?" for c in page.title)
     head = f"% {title}\n" if title else ""
-    head += "\\begin{tikzpicture}[x=1mm,y=1mm,line cap=round,line join=round]\n"
-    head += f"\\useasboundingbox (0,0) rectangle ({width:.10g},{height:.10g});\n"
+    head += f"\\begin{{tikzpicture}}[{_units(drawing)},line cap=round,line join=round]\n{_page_box(drawing)}"
     body = b"".join(_layer(ink) for ink in page.inks)
-    return head.encode("ascii") + body + b"\\end{tikzpicture}\n"
+    return head.encode("ascii") + body + _END_OF_PICTURE
 
 
 def _layer(ink: Ink) -> bytes:

@@ -5,13 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Sequence
 from functools import cache
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
 from vectorplot.errors import InputError
 from vectorplot.pictures.options import OPTIONS
-from vectorplot.words import LINE_WORDS, format_hint, line_words
+from vectorplot.words import LINE_WORDS, check_colour, format_hint, line_words
 
 if TYPE_CHECKING:
     from vectorplot.scene.light import Exposure, Light
@@ -116,6 +117,30 @@ def numbers(text: str) -> tuple[float, ...]:
     return tuple(positive(part.strip()) for part in text.split(","))
 
 
+def ascending(text: str) -> tuple[float, ...]:
+    """Two or more numbers with commas between them, each larger than the one before."""
+    found = tuple(number(part.strip()) for part in text.split(","))
+    if len(found) < 2 or any(first >= second for first, second in pairwise(found)):
+        raise click.BadParameter(f"{text!r}: expected ascending numbers with commas between them, such as 0,10,50")
+    return found
+
+
+def colour_word(text: str) -> str:
+    """A colour by its name or as #rrggbb."""
+    _said(text, check_colour)
+    return text
+
+
+def letter_size(text: str) -> float:
+    """The height of capitals in mm of a size such as 2.5 or 8pt."""
+    from vectorplot.scene.labels import capital_height
+
+    try:
+        return capital_height(text)
+    except InputError as error:
+        raise click.BadParameter(error.cause) from None
+
+
 def length(text: str) -> float:
     """The mm of a length on paper, such as 8cm."""
     from vectorplot.scene.page import length_mm
@@ -138,14 +163,18 @@ def tiles(text: str) -> tuple[int, int]:
 
 
 def page_size(text: str) -> tuple[float, float] | str:
-    """Width and height in mm of a named page or of WIDTHxHEIGHT, perhaps landscape or portrait, or the word FIT."""
-    from vectorplot.scene.page import FIT, sheet_size
+    """Width and height in mm of a named page or of WIDTHxHEIGHT, perhaps landscape or portrait; the word FIT; or SCALE
+    and a ratio."""
+    from vectorplot.scene.page import FIT, SCALE, scale_ratio, sheet_size
 
     if text.strip().lower() == FIT:
         return FIT
     sheet, _, way = text.strip().partition(" ")
     word = way.strip().lower()
     try:
+        if sheet.lower() == SCALE:
+            scale_ratio(way)
+            return f"{SCALE} {way.strip()}"
         sides = sheet_size(sheet if word in ("landscape", "portrait") else text)
         width, height = sorted(sides, reverse=word == "landscape") if word else sides
         return width, height

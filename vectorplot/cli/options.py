@@ -6,6 +6,7 @@ import math
 import os
 import warnings
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, fields, replace
 from functools import partial, reduce, wraps
 from pathlib import Path
@@ -17,9 +18,11 @@ from vectorplot.cli.many import WORKER_OPTIONS, PictureVerb, WorkerOptions, is_f
 from vectorplot.cli.option_values import (
     AXES,
     KINDS,
+    ascending,
     at_least,
     between,
     chosen,
+    colour_word,
     dash,
     depth_cue,
     direction,
@@ -29,6 +32,7 @@ from vectorplot.cli.option_values import (
     kinds,
     layers,
     length,
+    letter_size,
     light,
     number,
     of_option,
@@ -351,6 +355,19 @@ LINE_OPTIONS = (
     ),
     click.option("--colour-steps", type=click.IntRange(2, 100), metavar="N", help="How many colours (24)."),
     click.option(
+        "--colour-range", type=ascending, metavar="LOW,HIGH", help="Numbers of the first and the last colour."
+    ),
+    click.option("--colour-classes", type=ascending, metavar="N,N,...", help="A colour from each limit to the next."),
+    click.option("--colour-log", is_flag=True, help="Equal ratios have equal steps."),
+    click.option("--colour-under", type=colour_word, metavar="COLOUR", help="Of numbers below those with colours."),
+    click.option("--colour-over", type=colour_word, metavar="COLOUR", help="Of numbers above those with colours."),
+    click.option("--colour-title", metavar="TEXT", help="At the bar; $...$ is a formula.  [default: what they are by]"),
+    click.option("--colour-size", type=letter_size, metavar="SIZE", help="Of the letters at the bar: 2.5, or 8pt."),
+    click.option("--unlit", is_flag=True, help="Colours by numbers without light and shade."),
+    click.option(
+        "--scale-bar", is_flag=False, flag_value="", metavar="UNIT", help="A bar of a round length below the picture."
+    ),
+    click.option(
         "--material",
         "materials",
         type=ItemMaterial.read,
@@ -376,6 +393,15 @@ class LineOptions:
     colour_by: str | None = None
     colour_map: str | None = None
     colour_steps: int | None = None
+    colour_range: tuple[float, ...] | None = None
+    colour_classes: tuple[float, ...] | None = None
+    colour_log: bool = False
+    colour_under: str | None = None
+    colour_over: str | None = None
+    colour_title: str | None = None
+    colour_size: float | None = None
+    unlit: bool = False
+    scale_bar: str | None = None
     box: bool = False
     materials: tuple[ItemMaterial, ...] = ()
 
@@ -415,19 +441,42 @@ class LineOptions:
 
     def with_chart(self, scene: Scene) -> Scene:
         """A scene with the colours and the box that the user asked for. Bad usage for a map of no colours."""
-        from vectorplot.scene.scales import BoxAxes, Colouring
+        from vectorplot.errors import InputError
+        from vectorplot.scene.scales import BoxAxes, Colouring, ScaleBar
 
-        if self.colour_by is None and self.colour_map is None and self.colour_steps is None and not self.box:
-            return scene
+        said = self._of_colours()
         own = scene.colouring
         if self.colour_by is not None:
             own = Colouring(self.colour_by)
-        if own is None and (self.colour_map is not None or self.colour_steps is not None):
-            raise click.UsageError("--colour-map and --colour-steps go with --colour-by")
-        if own is not None:
-            named = own if self.colour_map is None else replace(own, colour_map=self.colour_map)
-            own = named if self.colour_steps is None else replace(named, steps=self.colour_steps)
-        return replace(scene, colouring=own, box=BoxAxes() if self.box else scene.box)
+        if own is None and said:
+            raise click.UsageError("options of colours go with --colour-by")
+        if said:
+            try:
+                own = replace(own, **said)  # type: ignore[type-var]
+            except InputError as error:
+                raise click.UsageError(error.cause) from None
+        bar = scene.scale_bar if self.scale_bar is None else ScaleBar(self.scale_bar)
+        if own is scene.colouring and bar is scene.scale_bar and not self.box:
+            return scene
+        return replace(scene, colouring=own, box=BoxAxes() if self.box else scene.box, scale_bar=bar)
+
+    def _of_colours(self) -> dict[str, Any]:
+        """The fields of a colouring that the user gave."""
+        exclusive(
+            [
+                ("--colour-classes", self.colour_classes),
+                ("--colour-range", self.colour_range),
+                ("--colour-steps", self.colour_steps),
+            ]
+        )
+        low, high = self.colour_range or (None, None)
+        told = {
+            **{"colour_map": self.colour_map, "steps": self.colour_steps, "low": low, "high": high},
+            **{"at": self.colour_classes, "logarithmic": self.colour_log or None, "under": self.colour_under},
+            **{"over": self.colour_over, "label": self.colour_title, "size_mm": self.colour_size},
+            **{"is_lit": False if self.unlit else None},
+        }
+        return {name: value for name, value in told.items() if value is not None}
 
     def with_numbers(self, scene: Scene) -> Scene:
         """A scene with numbers on its level lines where the user asked for them. Bad usage where there are none."""
@@ -509,10 +558,14 @@ PAGE_OPTIONS = (
         "--page",
         type=page_size,
         metavar="SIZE",
-        help="A0 to A6, letter, legal, ... or WIDTHxHEIGHT in mm; fit: as large as the picture.  [default: A4]",
+        help="A0 to A6, letter, legal, ... or WIDTHxHEIGHT in mm; fit: as large as the picture; 'scale 1:2': the same "
+        "at a scale.  [default: A4]",
     ),
     click.option(
-        "--width", type=length, metavar="LENGTH", help="Of a page as high as its picture: 80mm, 8cm, 3in or 120pt."
+        "--width",
+        type=length,
+        metavar="LENGTH",
+        help="Of a page as high as its picture: 80mm, 8cm, 3in, 120pt or, for LaTeX, '0.8\\linewidth'.",
     ),
     LANDSCAPE,
     click.option("--margin", type=at_least(0.0), metavar="MM", help="Empty border of the page.  [default: 10]"),
@@ -565,7 +618,9 @@ class PageOptions:
     @classmethod
     def of(cls, options: Mapping[str, Any]) -> PageOptions:
         """What a command with PAGE_OPTIONS was told. Bad usage for a page of a size and a width."""
-        size = None if isinstance(options["page"], str) else options["page"]
+        from vectorplot.scene.page import FIT
+
+        size = None if options["page"] == FIT else options["page"]
         exclusive([("--page SIZE", size), ("--width", options.get("width"))])
         return cls(**{field.name: options[field.name] for field in fields(cls)})
 
@@ -609,8 +664,15 @@ def camera_from(options: CameraOptions, scene: Scene) -> Camera:
 def page_from(options: PageOptions, scene: Scene) -> Page:
     """The page of the scene (or A4) with the user's size, margin and orientation; bad usage if nothing is left."""
     from vectorplot.errors import InputError
-    from vectorplot.scene.page import Page
-    from vectorplot.scene.placement import FittedPage, PageOfWidth, fitted_page, page_of_width
+    from vectorplot.scene.page import SCALE, Page
+    from vectorplot.scene.placement import (
+        FittedPage,
+        PageAtScale,
+        PageOfWidth,
+        fitted_page,
+        page_at_scale,
+        page_of_width,
+    )
 
     base = chosen(scene.page, Page())
     own = (base.width_mm, base.height_mm)
@@ -620,8 +682,12 @@ def page_from(options: PageOptions, scene: Scene) -> Page:
     except InputError as error:
         raise click.UsageError(str(error)) from None
     page = page.landscape if options.landscape else page
+    if isinstance(options.page, str) and options.page.startswith(SCALE):
+        return page_at_scale(page, options.page.partition(" ")[2])
     if options.page is None and isinstance(base, PageOfWidth):
         return page_of_width(page, base.width_mm)
+    if options.page is None and isinstance(base, PageAtScale):
+        return page_at_scale(page, repr(base.mm_per_unit))
     fitted = isinstance(options.page, str) or (options.page is None and isinstance(base, FittedPage))
     return fitted_page(page) if fitted else page
 
@@ -707,6 +773,10 @@ TEXT = click.option(
     help="Letters: strokes of the pen; in fonts of the reader; or, with a .pdf or .eps, in a .tex beside it.",
 )
 
+FONT = click.option(
+    "--font", metavar="NAME|FILE", help="Of real text: a family that is installed, or, in SVG, a .ttf, .otf or .woff."
+)
+
 BUDGET = click.option(
     "--budget", type=POSITIVE, default=1.0, metavar="FACTOR", help="Times the usual work on a surface."
 )
@@ -728,6 +798,12 @@ EXAGGERATION = click.option(
     help="Times that heights of a terrain file are as high.  [default: 1 where they are to be seen]",
 )
 
+MOLECULES = click.option(
+    "--molecules",
+    type=click.Choice(["ball-and-stick", "space-filling", "tube", "ribbon"]),
+    help="How molecules are shown.  [default: ball-and-stick]",
+)
+
 OUT = click.option("-o", "--out", required=True, type=click.Path(), metavar="OUT", help="File to write; - for stdout.")
 
 OUT_OR_FOLDER = click.option(
@@ -739,7 +815,18 @@ OUT_OR_FOLDER = click.option(
     help="File to write; - for stdout; FOLDER/ for a picture of each INPUT.",
 )
 
-_OF_THE_FILE = ("scene_file", "out", "format_", "exaggeration", "quiet", "explain", "strict", "certificate", "tiles")
+_OF_THE_FILE = (
+    "scene_file",
+    "out",
+    "format_",
+    "exaggeration",
+    "molecules",
+    "quiet",
+    "explain",
+    "strict",
+    "certificate",
+    "tiles",
+)
 """Parameters that say what is read and written, and what is said of it."""
 
 
@@ -806,6 +893,24 @@ class Told:
         camera = camera_from(self.camera, scene)
         page = {} if self.page is None else {"page": page_from(self.page, scene)}
         return {"camera": camera, **page, **self.rest}
+
+    @property
+    def fineness(self) -> float | None:
+        """How far parts of CAD systems may be off, as part of their extent: as far as the picture may, where they fill
+        its page; None for pictures of pixels."""
+        from vectorplot.scene.scene import Scene
+
+        if self.page is None or "tolerance_mm" not in self.rest:
+            return None
+        page, allowed = page_from(self.page, Scene(())), self.rest["tolerance_mm"]
+        if self.rest.get("off_by") is not None:
+            from vectorplot.errors import InputError
+            from vectorplot.pictures.promises import off_by_of
+
+            # What is no error to keep, the verb itself says.
+            with suppress(InputError):
+                allowed = off_by_of(self.rest["off_by"], "mm", "shades").get("mm", allowed)
+        return float(allowed / math.hypot(page.width_mm, page.height_mm))
 
     def with_lines(self, scene: Scene) -> tuple[Scene, dict[str, Any]]:
         """A scene with the lines and the cuts that the user asked for, and the keywords of the verb's function, which
@@ -921,7 +1026,8 @@ def picture_verb(
                 warn_of_nothing(source, made, lambda: _why_nothing(verb.__name__, lined, keywords))
                 return made
 
-            source = Source(params["scene_file"], params["exaggeration"], upright=told.camera.says_where())
+            upright, fineness = told.camera.says_where(), told.fineness
+            source = Source(params["scene_file"], params["exaggeration"], upright, fineness, params["molecules"])
             said = {"source": source, "format_": written, "picture": picture, "jobs": jobs, "overlaid": overlaid}
             beside = [] if params.get("certificate") is None else [_proof(params, told, source)]
             beside += [] if params.get("tiles") is None else tiles_beside(params, written)
@@ -942,6 +1048,7 @@ def picture_verb(
             OUT_OR_FOLDER,
             format_option(formats),
             EXAGGERATION,
+            MOLECULES,
             *CAMERA_OPTIONS,
             *options,
             *LINE_OPTIONS,

@@ -282,6 +282,9 @@ class Drawing:
         What it shows.
     page_from_world : (4, 4) array of float
         Acts on columns (x,y,z,1); divide by the last component to get mm.
+    font : str
+        The family that its texts are set in, or a file of a font, which SVG holds then; what the reader has where
+        nothing is said.
 
     Examples
     --------
@@ -296,6 +299,7 @@ class Drawing:
     items: tuple[str, ...] = ()
     title: str = ""
     page_from_world: Floats = field(default_factory=lambda: np.eye(4))
+    font: str = ""
 
     def __repr__(self) -> str:
         layers = ", ".join(f"{layer.name} {sum(map(len, layer.marks))}" for layer in self.layers)

@@ -36,7 +36,7 @@ from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.polylines import segments
 from vectorplot.scene.annotations import LabelAnchors
-from vectorplot.scene.labels import Along, BesidePoint, Label, OnCurve, OnPage
+from vectorplot.scene.labels import Along, BesidePoint, Label, OnCurve, OnPage, times
 from vectorplot.scene.placement import Placement
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
@@ -417,7 +417,7 @@ def set_label(letters: Letters, label: Label, room: float, mm: float) -> Letteri
     """
 
     def set_(text: str) -> Lettering:
-        return letters.plain(text, size_mm=label.size_mm * mm, align="centre")
+        return letters.plain(text, size_mm=times(label.capitals_mm, mm), align="centre")
 
     def fits(text: str) -> bool:
         return float(np.ptp(set_(text).bounds, axis=0)[0]) <= room
@@ -453,7 +453,7 @@ def set_along(
     nearest = int(np.argmin(np.hypot(*(path - seen.points[number]).T)))
     whole = float(steps.sum())
     part = float(steps[:nearest].sum()) / whole if whole else 0.0
-    size = label.size_mm * mm
+    size = times(label.capitals_mm, mm)
     level, off = {"above": ("base", GAP), "below": ("top", -GAP)}.get(place or label.place, ("middle", 0.0))
     part = part if at is None else at
     try:
@@ -563,7 +563,7 @@ def ticks_with_room(seen: SeenLabels, placement: Placement, mm: float) -> SeenLa
 
 def _is_clear(label: Label, way: Floats, share: float, mm: float) -> bool:
     """Whether a text that is moved by way (2,) is clear of a share of one of the same size where it was."""
-    size = label.size_mm * mm
+    size = times(label.capitals_mm, mm)
     room = np.ptp(typeset(label.text, size_mm=size).bounds, axis=0) + BETWEEN * size
     return bool((np.abs(way) >= share * room).any())
 
@@ -761,7 +761,7 @@ def measures_on_page(
             def set_at(place: str, part: float, k: int = k, path: Floats = path) -> Lettering:
                 return set_along(letters, seen, k, path, mm, place, part)
 
-            gap = GAP * label.size_mm * mm
+            gap = GAP * label.capitals_mm * mm
             tried[k] = measures_tried(path, heads[label.at.item], usual[k], set_at, gap, mm)
     if not tried:
         return {}
@@ -893,7 +893,7 @@ def labels_on_page(
     measures = measures_on_page(letters, seen, {k: paths[k] for k in along}, set_, heads, shown, page, mm)
     set_ |= {k: measure.text for k, measure in measures.items()}
     sizes = np.array([np.ptp(text.bounds, axis=0) for text in texts]).reshape(-1, 2)
-    height = np.array([seen.anchors.labels[k].size_mm * mm for k in beside])
+    height = np.array([seen.anchors.labels[k].capitals_mm * mm for k in beside])
     taken = np.array([set_[k].bounds for k in along]).reshape(-1, 2, 2)
     asked = [_asked(seen.anchors.labels[k]) for k in beside]
     points = np.array([_named(seen, k, mm) for k in beside]).reshape(-1, 2)
@@ -929,7 +929,7 @@ def _has_room(label: Label, path: Floats, heads: Mapping[str, tuple[float, ...]]
     """Whether letters stand along a course (n,2): one longer than they are high, or a dimension line."""
     assert isinstance(label.at, Along)
     long = length_of(path)
-    return long > label.size_mm * mm or (long > 0.0 and label.place == "above" and label.at.item in heads)
+    return long > label.capitals_mm * mm or (long > 0.0 and label.place == "above" and label.at.item in heads)
 
 
 def _outside_letters(
@@ -974,6 +974,43 @@ def _leaves(page: Floats, boxes: Floats) -> bool:
     return bool(((boxes < page[0]) | (boxes > page[1])).any())
 
 
+def rooms_of_labels(
+    anchors: LabelAnchors, points: Floats, filled: Floats, margin_mm: float, mm: float = 1.0
+) -> tuple[Ints, Floats, Floats]:
+    """The labels (k,) beside points, and the corners low (k,2) and high (k,2) of what they need inside the margin, for
+    letters may stand in it, counted from their points on the page. points (l,2): the images of what they name; filled
+    (2,2): the lowest and the highest corner of the picture, in the image. Where a label may stand anywhere beside its
+    point it is taken to be on the side that leads away from the middle of the picture.
+    """
+    some, low, high = [], [], []
+    middle, reach = filled.mean(axis=0), np.maximum(np.ptp(filled, axis=0), np.finfo(float).tiny)
+    order = [word for word in DIRECTIONS if word not in ("auto", "centre")]
+    ways = np.array([DIRECTIONS[word] for word in order])
+    for k, label in enumerate(anchors.labels):
+        if (
+            isinstance(label.at, (Along, OnPage, BesidePoint))
+            or not label.text.strip()
+            or not np.isfinite(points[k]).all()
+        ):
+            continue
+        size = np.ptp(typeset(label.text, size_mm=label.capitals_mm * mm).bounds, axis=0)
+        gap = _gap(label, mm)
+        way = np.array([DIRECTIONS[label.place]]) if label.place != "auto" else ways
+        outwards = matmul(way / np.maximum(np.hypot(*way.T), 1.0)[:, None], (points[k] - middle) / reach)
+        beside = _beside(way, size, gap)[int(np.argmax(outwards))]
+        # Letters keep their distance from the edge of the page.
+        inside = margin_mm * mm - gap
+        some.append(k)
+        low.append(np.minimum(beside - 0.5 * size + inside, 0.0))
+        high.append(np.maximum(beside + 0.5 * size - inside, 0.0))
+    none = np.zeros((0, 2))
+    return (
+        np.array(some, dtype=np.intp),
+        np.array([*none, *low]).reshape(-1, 2),
+        np.array([*none, *high]).reshape(-1, 2),
+    )
+
+
 def _asked(label: Label) -> str:
     if not label.text.strip():
         return "centre"
@@ -983,7 +1020,7 @@ def _asked(label: Label) -> str:
 def _gap(label: Label, mm: float) -> float:
     """From a point to the letters beside it: a mark there, and a little more than lines keep away."""
     mark = {"none": 0.0, "tick": TICK * MARK_MM, "arrow": ARROW_SLOPE * ARROW_MM}.get(label.mark, 0.7 * MARK_MM)
-    return max(GAP * label.size_mm, 1.5 * HALO_MM) * mm + mark * mm
+    return max(GAP * label.capitals_mm, 1.5 * HALO_MM) * mm + mark * mm
 
 
 def _side(middle: Floats, size: Floats, point: Floats) -> float:

@@ -19,6 +19,7 @@ from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.polylines import Polylines
+from vectorplot.scene.page import in_latex
 
 # What the alphabets lack: accents, signs that are put together, and letters that others resemble.
 #
@@ -585,6 +586,7 @@ def typeset(
         np.full(count, ALIGNED[align]),
         layout.length[rows],
         np.zeros(count, dtype=np.intp),
+        (in_latex(size_mm),) * count,
     )
     return Lettering(no_strokes(), layout.boxes, texts)
 

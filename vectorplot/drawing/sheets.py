@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import chain
+from typing import Literal
 
 import numpy as np
 
@@ -13,10 +15,12 @@ from vectorplot.arrays import Floats, Ints
 from vectorplot.drawing.drawing import NO_CURVE, CurvedStrokes, Drawing, Layer, Paths, Pen
 from vectorplot.drawing.fills import Fills
 from vectorplot.drawing.layers import PENS
-from vectorplot.drawing.letters import Lettering
+from vectorplot.drawing.letters import Lettering, lettered, typeset
 from vectorplot.drawing.texts import Texts
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
+from vectorplot.geometry.vectors import norm
+from vectorplot.scene.labels import capital_height
 from vectorplot.scene.page import Page
 from vectorplot.scene.placement import page_of
 from vectorplot.scene.scene import Scene
@@ -144,7 +148,8 @@ class Sheet:
         drawn = {key: tuple(mark for mark in marks if len(mark)) for key, marks in merged.items()}
         layers = tuple(Layer(name, pen, marks, plotted) for (name, pen, plotted), marks in drawn.items() if marks)
         page = page_of(self.page, Scene(()))
-        return Drawing(page.width_mm, page.height_mm, layers, names, self.title)
+        font = next((placed.drawing.font for placed in self.drawings if placed.drawing.font), "")
+        return Drawing(page.width_mm, page.height_mm, layers, names, self.title, font=font)
 
 
 def moved_mark(mark: Mark, scale: float, by: Floats) -> Mark:
@@ -259,6 +264,136 @@ def contact_sheet(
     for drawing, (x, y), factor in zip(drawings, corner.tolist(), scale.tolist(), strict=True):
         sheet = sheet.place(drawing, x, y, factor)
     return sheet.drawing()
+
+
+# Panels of a figure: side by side on one line, lettered, and at one scale.
+
+PANEL_GAP_MM = 5.0
+"""Between panels."""
+
+LETTER_GAP = 0.6
+"""From panels to their letters, in heights of these."""
+
+MOST_PANELS = 26
+"""A letter each."""
+
+
+def panels(
+    drawings: Sequence[Drawing],
+    *,
+    gap_mm: float = PANEL_GAP_MM,
+    letters: str = "a)",
+    size_mm: float | str = 3.5,
+    text: Literal["strokes", "real"] = "strokes",
+    title: str = "",
+) -> Drawing:
+    """A figure of drawings in a row, which stand on one line, with letters above them.
+
+    Parameters
+    ----------
+    drawings : sequence of Drawing
+        From left to right. They keep their sizes: drawn on pages at one scale (page="scale 1:2") they have that scale.
+    gap_mm : float
+        Between their pages.
+    letters : str
+        How the first one is called, with the letter that counts: "a)", "(a)", "A"; nothing for no letters.
+    size_mm : float or str
+        Height of the capitals of letters, or their size of type as in "10pt".
+    text : {"strokes", "real"}
+        Letters of a pen, or texts in a font.
+    title : str
+        What the figure shows.
+
+    Returns
+    -------
+    Drawing
+        On a page that is as large as the row. What is lowest in every panel, but for its labels, stands on one line,
+        and so do the letters.
+
+    Raises
+    ------
+    InputError
+        For no drawings or more than 26, for letters without an a or A, and for a gap that is negative or not finite.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot.geometry import box
+    >>> sizes = [vp.draw(box((2 * k, 2, k)), "front", page="scale 5:1") for k in (1, 2, 3)]
+    >>> figure = vp.panels(sizes)
+    >>> figure.width_mm == sum(one.width_mm for one in sizes) + 2 * 5
+    True
+    """
+    if not 0 < len(drawings) <= MOST_PANELS:
+        raise InputError(f"a figure of {len(drawings)} panels: expected 1 to {MOST_PANELS}")
+    if not 0.0 <= gap_mm < math.inf:
+        raise InputError(f"a gap of {gap_mm:g} mm: expected a length that is finite and not negative")
+    found = re.search("a", letters, re.IGNORECASE)
+    if letters and not found:
+        raise InputError(f"letters of panels {letters!r}: expected the first one, with an a or A, such as 'a)'")
+    size = capital_height(size_mm)
+    foot = np.array([_lowest_mm(drawing) for drawing in drawings])
+    low = foot.max() - foot
+    left = np.concatenate([[0.0], np.cumsum([drawing.width_mm + gap_mm for drawing in drawings])]).tolist()
+    high = float(max(y + drawing.height_mm for y, drawing in zip(low.tolist(), drawings, strict=True)))
+    row = 0.0 if found is None else (1.0 + 2.0 * LETTER_GAP) * size
+    sheet = Sheet(Page(left[-1] - gap_mm, high + row, 0.0), title)
+    for drawing, x, y in zip(drawings, left, low.tolist(), strict=False):
+        sheet = sheet.place(drawing, x, y)
+    whole = sheet.drawing()
+    if found is None:
+        return whole
+    set_ = lettered if text == "strokes" else typeset
+    names = [letters[: found.start()] + chr(ord(found[0]) + k) + letters[found.end() :] for k in range(len(drawings))]
+    made = [set_(name, (x, high + LETTER_GAP * size), size_mm=size) for name, x in zip(names, left, strict=False)]
+    strokes = [one.strokes[k] for one in made for k in range(len(one.strokes))]
+    texts = Texts.joined([one.texts for one in made])
+    marks: tuple[Mark, ...] = (*([page_strokes(strokes)] if strokes else []), *([texts] if len(texts) else []))
+    return replace(whole, layers=(*whole.layers, Layer("panels", PENS["label"], marks)))
+
+
+def _lowest_mm(drawing: Drawing) -> float:
+    """The lowest height of what is drawn, its labels not among it; that of the page where there is nothing."""
+    kinds = (int(LineKind.LABEL), int(LineKind.CENTRE))
+    lowest = math.inf
+    for layer in drawing.layers:
+        for mark in layer.marks:
+            if isinstance(mark, Texts) or layer.name in BESIDE_PICTURES:
+                continue
+            if isinstance(mark, Fills):
+                points = mark.points
+            else:
+                paths = mark.paths if isinstance(mark, CurvedStrokes) else mark
+                named = np.isin(paths.kind, kinds)
+                points = paths.points[~np.repeat(named, np.diff(paths.offsets))]
+            lowest = min(lowest, float(points[:, 1].min(initial=math.inf)))
+    return lowest if lowest < math.inf else 0.0
+
+
+BESIDE_PICTURES = ("frame", "colour bar", "scale bar", "panels")
+"""Layers of what stands around a picture."""
+
+
+def shared_scale(
+    drawings: Sequence[Drawing], width_mm: float, gap_mm: float = PANEL_GAP_MM, others: Sequence[Drawing] = ()
+) -> float:
+    """The mm for a unit of the world at which pictures side by side have a width together.
+
+    drawings: of the pictures, on pages as large as these; gap_mm: between panels; others: the same pictures at another
+    scale, if what is beside them, such as a colour bar, does not grow with it.
+    Errors: InputError for central projections, which have no scale, and where there is no room.
+    """
+    left, slope = width_mm - (len(drawings) - 1) * gap_mm, 0.0
+    for drawing, other in zip(drawings, others or drawings, strict=True):
+        if any(drawing.page_from_world[3, :3]):
+            raise InputError("panels at one scale need parallel projections, such as main views")
+        scale, second = (float(norm(one.page_from_world[0, :3])) for one in (drawing, other))
+        grows = drawing.width_mm / scale if second == scale else (drawing.width_mm - other.width_mm) / (scale - second)
+        left -= drawing.width_mm - grows * scale
+        slope += grows
+    if not (left > 0.0 and slope > 0.0):
+        raise InputError(f"{width_mm:g} mm: no room for {len(drawings)} panels")
+    return left / slope
 
 
 # Strokes that belong to the sheet and to nothing in the world: frames, title blocks, marks, letters.

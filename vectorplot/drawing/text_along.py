@@ -34,6 +34,7 @@ from vectorplot.drawing.texts import Texts
 from vectorplot.errors import InputError
 from vectorplot.geometry import intervals
 from vectorplot.geometry.elementary import arctan2
+from vectorplot.scene.page import in_latex
 from vectorplot.tolerances import UNION_OF_SEGMENT
 
 # Texts whose letters stand along curves.
@@ -156,6 +157,7 @@ def typeset_along(
         np.zeros(count),
         np.array([one.advance for one in found])[shown] * size_mm / CAPITAL,
         np.zeros(count, dtype=np.intp),
+        (in_latex(size_mm),) * count,
     )
     # A font's letters are narrower or wider than strokes: in the middle of their room they stay evenly apart.
     return Lettering(no_strokes(), course.boxes, texts.anchored(0.5))

@@ -2,12 +2,33 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from pathlib import Path
 
 import numpy as np
 
 from vectorplot.arrays import Floats, Ints
+from vectorplot.errors import InputError, printable
+
+FONT_SUFFIXES = (".ttf", ".otf", ".woff", ".woff2")
+"""Those of files of fonts."""
+
+
+def is_font_file(font: str) -> bool:
+    """Whether the name of a font is that of a file."""
+    return font.lower().endswith(FONT_SUFFIXES)
+
+
+def check_font(font: str) -> None:
+    """An InputError for what is no name of a family of fonts, and no file of one that is there."""
+    name = Path(font).stem if is_font_file(font) else font
+    if not re.fullmatch(r"[\w .\-]+", name):
+        said = f"expected the name of a family, or a file that ends in {', '.join(FONT_SUFFIXES)}"
+        raise InputError(f"font {printable(font)!r}: {said}")
+    if is_font_file(font) and not Path(font).is_file():
+        raise InputError("no such font file", file=font)
 
 
 @dataclass(frozen=True, eq=False)
@@ -15,7 +36,7 @@ class Texts:
     """Lines of text on the page, in letters of a font. strings: one line each; points (n,2) in mm: on the baseline;
     size_mm (n,): heights of capitals; turn_deg (n,): directions, counter-clockwise from x; anchor (n,): part of the
     line before its point, 0 to 1; room_mm (n,): lengths kept free; hidden_by (n,): items in front of what they name,
-    or 0.
+    or 0; latex: LaTeX's words for the sizes, of all lines or of none.
     """
 
     strings: tuple[str, ...]
@@ -25,6 +46,7 @@ class Texts:
     anchor: Floats
     room_mm: Floats
     hidden_by: Ints
+    latex: tuple[str, ...] = ()
 
     def __len__(self) -> int:
         return len(self.strings)
@@ -47,12 +69,21 @@ class Texts:
             np.concatenate([part.anchor for part in every]),
             np.concatenate([part.room_mm for part in every]),
             np.concatenate([part.hidden_by for part in every]),
+            tuple(word for part in every for word in part.in_latex),
         )
 
     def take(self, which: Ints) -> Texts:
         """The texts with these numbers (k,), in this order."""
-        columns = self.points, self.size_mm, self.turn_deg, self.anchor, self.room_mm, self.hidden_by
-        return Texts(tuple(self.strings[k] for k in which.tolist()), *(column[which] for column in columns))
+        numbers = which.tolist()
+        return Texts(
+            tuple(self.strings[k] for k in numbers), self.points[which], self.size_mm[which], self.turn_deg[which],
+            self.anchor[which], self.room_mm[which], self.hidden_by[which], tuple(self.in_latex[k] for k in numbers),
+        )  # fmt: skip
+
+    @property
+    def in_latex(self) -> tuple[str, ...]:
+        """LaTeX's word for the size of every line, empty where it has none."""
+        return self.latex or ("",) * len(self)
 
     def moved(self, way: Floats) -> Texts:
         """The same, moved on the page by (2,)."""

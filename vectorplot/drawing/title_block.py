@@ -18,7 +18,7 @@ from vectorplot.drawing.letters import Lettering
 from vectorplot.drawing.pens import read_toml
 from vectorplot.drawing.sheets import letter_layer, page_strokes, rectangle
 from vectorplot.errors import InputError
-from vectorplot.scene.page import Page
+from vectorplot.scene.page import Page, scale_ratio
 
 # The frame of a technical drawing: the border of the drawing space, centring marks, and zones along it.
 #
@@ -135,14 +135,9 @@ class DrawingScale:
     def of(cls, text: str) -> DrawingScale:
         """The scale that a text such as 1:2 or 5:1 says. Errors: InputError for another text, and numbers that are not
         finite and positive."""
-        sides = re.fullmatch(r"\s*([^:]+):([^:]+)", str(text))
-        try:
-            paper, world = (float(side) for side in sides.groups()) if sides else (math.nan, math.nan)
-        except ValueError:
-            paper = world = math.nan
-        if not (0.0 < paper < math.inf and 0.0 < world < math.inf and 0.0 < paper / world < math.inf):
+        if ":" not in str(text):
             raise InputError(f"scale {text!r}: expected two numbers such as 1:2")
-        return cls(paper, world)
+        return cls(*scale_ratio(text))
 
     @classmethod
     def largest_standard(cls, factor: float, steps: Sequence[int] = ISO_STEPS) -> DrawingScale:

@@ -1,7 +1,8 @@
-"""The title of a page, the frame around it, and sheets that are cut to their picture."""
+"""The title of a page, the frame around it, a scale bar below it, and sheets that are cut to their picture."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -9,15 +10,19 @@ import numpy as np
 
 from vectorplot.arrays import Floats
 from vectorplot.drawing.dashes import dashed
-from vectorplot.drawing.drawing import Layer, Pen
+from vectorplot.drawing.drawing import Drawing, Layer, Pen
+from vectorplot.drawing.fills import Fills
 from vectorplot.drawing.labels import LETTERS, Letters, label_paths
 from vectorplot.drawing.letters import DESCENT, LINES_APART, Lettering, broken_at_blanks
-from vectorplot.drawing.sheets import moved_mark
+from vectorplot.drawing.sheets import Mark, moved_mark, page_strokes, rectangle
 from vectorplot.drawing.strokes import concatenated, split_long
 from vectorplot.drawing.text_along import grown, outside_boxes
 from vectorplot.errors import InputError
+from vectorplot.geometry.algebra import matmul
+from vectorplot.geometry.vectors import norm
 from vectorplot.scene.page import Page
 from vectorplot.scene.placement import Placement
+from vectorplot.scene.scales import ScaleBar
 
 SIZES_MM = (5.0, 2.5)
 """The height of the capitals of titles: as large as fits the margin and the width of the page, between these."""
@@ -117,6 +122,72 @@ def _ring(width: float, height: float, inset: float) -> Floats:
     """(6,2) the corners of the page, drawn in, between the middle of the lower side twice: where a title cuts it."""
     right, top, middle = width - inset, height - inset, 0.5 * width
     return np.array([(middle, inset), (right, inset), (right, top), (inset, top), (inset, inset), (middle, inset)])
+
+
+# A bar below the picture that is as long as a length in it.
+
+BAR_PART = 0.25
+"""About how much of the width of the picture it has where nobody says its length."""
+
+BAR_STRIP = 2.4
+"""The height of the strip below the picture in which it stands, in heights of its capitals."""
+
+BAR_PEN = Pen(0.25)
+
+
+def scale_bar_strip(bar: ScaleBar) -> float:
+    """How high the strip is, in mm."""
+    return BAR_STRIP * bar.capitals_mm
+
+
+def with_scale_bar(
+    drawing: Drawing, bar: ScaleBar, margin_mm: float, text: str = "strokes", paper: str | None = None
+) -> Drawing:
+    """The drawing on a page that is higher by a strip, at its foot, with the bar in it; text: a word of LETTERS; paper:
+    #rrggbb of the strip.
+
+    Errors: InputError for a central projection, where lengths have no scale, for a character without strokes, and for a
+    bar that is longer than the page.
+    """
+    strip, size, world = scale_bar_strip(bar), bar.capitals_mm, drawing.page_from_world
+    if any(world[3, :3]):
+        raise InputError("a scale bar is for parallel projections, such as a main view")
+    scale = float(norm(world[0, :3]))
+    length = bar.length or _round_length(BAR_PART * max(drawing.width_mm - 2.0 * margin_mm, size) / scale)
+    left, foot, wide = max(margin_mm, EDGE_MM), 0.8 * size, scale * length
+    if left + wide > drawing.width_mm:
+        raise InputError(f"a scale bar of {length:g} is longer than the page")
+    try:
+        said = f"{length:g} {bar.unit}".strip()
+        named = LETTERS[text].plain(said, (left + wide + size, foot), size_mm=size, align="left", level="base")
+    except InputError as error:
+        raise InputError(f"scale bar: {error.cause}") from None
+    high = foot + 0.5 * size
+    course = np.array([(left, high), (left, foot), (left + wide, foot), (left + wide, high)])
+    up = np.array([0.0, strip])
+    layers = tuple(
+        replace(layer, marks=tuple(moved_mark(mark, 1.0, up) for mark in layer.marks)) for layer in drawing.layers
+    )
+    marks: list[Mark] = []
+    if paper is not None:
+        rgb = np.array([[int(paper[k : k + 2], 16) for k in (1, 3, 5)]], dtype=np.uint8)
+        marks.append(Fills.flat(rectangle(0.0, 0.0, drawing.width_mm, strip), np.array([0, 4]), rgb))
+    marks.append(page_strokes([course, *(named.strokes[k] for k in range(len(named.strokes)))]))
+    marks += [named.texts] if len(named.texts) else []
+    shift = np.eye(4)
+    shift[1, 3] = strip
+    return replace(
+        drawing,
+        height_mm=drawing.height_mm + strip,
+        layers=(*layers, Layer("scale bar", BAR_PEN, tuple(marks))),
+        page_from_world=matmul(shift, world),
+    )
+
+
+def _round_length(most: float) -> float:
+    """The largest of 1, 2 and 5 times powers of ten that is no longer."""
+    power = 10.0 ** math.floor(math.log10(most))
+    return max(digit * step for digit in (1.0, 2.0, 5.0) for step in (0.1 * power, power) if digit * step <= most)
 
 
 # Sheets that are cut to their picture, its labels among it.

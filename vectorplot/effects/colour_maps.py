@@ -15,9 +15,11 @@ from vectorplot.curves.curve import is_curve
 from vectorplot.curves.families import Line
 from vectorplot.drawing.drawing import Drawing, Layer, Paths, Pen
 from vectorplot.drawing.fills import Fills
-from vectorplot.drawing.letters import lettered, typeset
+from vectorplot.drawing.labels import LETTERS
+from vectorplot.drawing.letters import Lettering, typeset
 from vectorplot.drawing.pens import PenRule
 from vectorplot.drawing.strokes import split_long
+from vectorplot.drawing.texts import Texts
 from vectorplot.effects.cuts import InSpace, cut_scene, default_page
 from vectorplot.errors import InputError
 from vectorplot.features.edge_splitting import Within, divided
@@ -29,7 +31,7 @@ from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.budget import USUAL as DEFAULT_BUDGET
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.connectivity import edges_of
-from vectorplot.geometry.elementary import arctan2
+from vectorplot.geometry.elementary import arctan2, log, power
 from vectorplot.geometry.mesh import TRIANGLE, Mesh
 from vectorplot.geometry.mesh_cuts import level_bands
 from vectorplot.geometry.mesh_repair import welded
@@ -39,12 +41,14 @@ from vectorplot.io.expressions import parse_expression
 from vectorplot.scene.annotations import thin_line
 from vectorplot.scene.item import Item, SurfaceNormals
 from vectorplot.scene.labels import BesidePoint, Label
+from vectorplot.scene.material import Material
 from vectorplot.scene.page import Page
 from vectorplot.scene.placement import Placement, camera_of, fitted_with_room
-from vectorplot.scene.scales import BoxAxes, Colouring, Fields
+from vectorplot.scene.scales import BAR_LETTERS_MM, BoxAxes, Colouring, Fields
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.surface_lines import NO_LINES, SurfaceLines, round_heights
 from vectorplot.scene.view import View
+from vectorplot.shading.palettes import palette
 from vectorplot.surfaces.surface import is_implicit, is_parametrised
 from vectorplot.tolerances import COLOURED_OF_EXTENT, ZERO_OF_EXTENT
 from vectorplot.words import LineKind, unknown
@@ -240,7 +244,7 @@ def _labels(
     for axis, (edge, along) in enumerate(zip(edges, numbers, strict=True)):
         if not edge.length > SHORT * longest:
             continue
-        deep, size = 0.0, SMALLER * box.size_mm
+        deep, size = 0.0, SMALLER * box.capitals_mm
         for value, text in zip(along.values, along.texts, strict=True):
             place = edge.corner.copy()
             place[axis] = value
@@ -255,9 +259,9 @@ def _labels(
             place = edge.corner.copy()
             place[axis] = middle[axis]
             off = deep + NAME_GAP_MM
-            room, _ = _beside(text, place, box.size_mm, edge.upright, edge.upright, off)
+            room, _ = _beside(text, place, box.capitals_mm, edge.upright, edge.upright, off)
             room = replace(room, is_dispensable=False)
-            names.append(Label(text, room, f"box {axis}", box.size_mm, "centre", "solid"))
+            names.append(Label(text, room, f"box {axis}", box.capitals_mm, "centre", "solid"))
     return [*names, *alone, *found]
 
 
@@ -436,6 +440,9 @@ WORDS = ("x", "y", "z", "height", "slope", "curvature")
 """Numbers that every shape has at its points; all else is a formula."""
 
 
+BAR_TICKS = 6
+"""Numbers at a bar, about."""
+
 PART_OF_STEP = 0.25
 """Of the difference of two colours: how far numbers may be from linear in a triangle."""
 
@@ -455,16 +462,38 @@ class _Valued:
 
 @dataclass(frozen=True)
 class ColourBar:
-    """Which number is which colour: low and high, the numbers at both ends; colours: #rrggbb from low to high; title:
-    what stands above; pens: of the lines between the bands, by the names of these; bands: the names of those of every
-    item."""
+    """Which number is which colour: limits, ascending, of the colours #rrggbb between them; colouring: what asked for
+    them; pens: of the lines between the bands, by the names of these; bands: the names of those of every item."""
 
-    low: float
-    high: float
+    limits: tuple[float, ...]
     colours: tuple[str, ...]
-    title: str
+    colouring: Colouring
     pens: tuple[PenRule, ...]
     bands: tuple[tuple[str, tuple[str, ...]], ...]
+
+    @property
+    def low(self) -> float:
+        """The number at the lower end."""
+        return self.limits[0]
+
+    @property
+    def high(self) -> float:
+        """The number at the upper end."""
+        return self.limits[-1]
+
+    def ticks(self, most: int = BAR_TICKS) -> list[tuple[float, str]]:
+        """Where numbers stand along the bar, 0 to 1, and what these are: about so many of them."""
+        low, high = self.low, self.high
+        if self.colouring.at:
+            every = max(1, math.ceil(len(self.limits) / (2.0 * most)))
+            return [(k / len(self.colours), f"{limit:.6g}") for k, limit in enumerate(self.limits)][::every]
+        if not low < high:
+            return [(0.5, f"{low:.6g}")]
+        if not self.colouring.logarithmic:
+            return [((value - low) / (high - low), f"{value:.6g}") for value in round_heights(low, high, most)]
+        values = logarithmic_numbers(low, high, most)
+        places = log(np.array(values) / low) / log(high / low)
+        return [(place, _power_text(value)) for place, value in zip(places.tolist(), values, strict=True)]
 
     def with_pens(self, rules: Sequence[PenRule]) -> tuple[PenRule, ...]:
         """The pens of the bands, and after them rules for the scene before it was coloured: what is for an item is for
@@ -484,7 +513,6 @@ def coloured(scene: Scene, colouring: Colouring) -> tuple[Scene, ColourBar]:
     colour and hatches.
     Errors: InputError for an unknown map, word or formula, a scene without bodies, numbers finite nowhere.
     """
-    colours = map_colours(colouring.colour_map, colouring.steps)
     size = float(norm(np.ptp(scene.bounds, axis=0)))
     field = isinstance(colouring.by, str) and any(_has_field(item, colouring.by) for item in scene.items)
     plain = (
@@ -502,8 +530,13 @@ def coloured(scene: Scene, colouring: Colouring) -> tuple[Scene, ColourBar]:
     values = values[np.isfinite(values)]
     if not len(values):
         raise InputError(f"colouring by {colouring.title or 'a function'}: nothing in the scene has a finite number")
-    low, high = float(values.min()), float(values.max())
-    levels = np.linspace(low, high, len(colours) + 1)[1:-1] if high > low else np.zeros(0)
+    limits = class_limits(colouring, values)
+    classes = map_colours(colouring.colour_map, len(limits) - 1)
+    below, above = (() if name is None else (shade_of(name),) for name in (colouring.under, colouring.over))
+    colours = [*below, *classes, *above]
+    levels = limits[0 if below else 1 : len(limits) if above else -1]
+    levels = levels if limits[-1] > limits[0] else np.zeros(0)
+    unlit = None if colouring.is_lit else Material("unlit")
     items: list[Item] = []
     pens: list[PenRule] = []
     names = []
@@ -513,7 +546,8 @@ def coloured(scene: Scene, colouring: Colouring) -> tuple[Scene, ColourBar]:
             continue
         lines = _kept_lines(item.curves)
         own = []
-        parts = level_bands(whole.points, whole.values, whole.triangles, levels)
+        numbers = _scaled(colouring, whole.values, limits[0])
+        parts = level_bands(whole.points, numbers, whole.triangles, _scaled(colouring, levels, limits[0]))
         if whole.without is not None:
             bare = replace(item, name=f"{item.name} 0", shape=whole.without, patterns=(), curves=lines)
             items.append(replace(bare, group=item.group or item.name, fields=None))
@@ -524,12 +558,13 @@ def coloured(scene: Scene, colouring: Colouring) -> tuple[Scene, ColourBar]:
                 name = f"{item.name} {k + 1}"
                 group = item.group or item.name
                 band = replace(item, name=name, shape=mesh, colour=colours[k], patterns=(), curves=lines, group=group)
+                band = band if unlit is None else replace(band, material=unlit)
                 items.append(replace(band, fields=None, face_looks=None, normals=whole.normals))
                 own.append(name)
                 pens.extend(PenRule(kind, name, colour=colours[k]) for kind in IN_COLOURS)
                 pens.append(PenRule("boundary", name, width_mm=LINE_MM))
         names.append((item.name, tuple(own)))
-    bar = ColourBar(low, high, tuple(colours), colouring.title, tuple(pens), tuple(names))
+    bar = ColourBar(tuple(limits.tolist()), tuple(classes), colouring, tuple(pens), tuple(names))
     return replace(scene, items=tuple(items), colouring=None), bar
 
 
@@ -566,14 +601,90 @@ def _valued(item: Item, colouring: Colouring, found: Facets | None, exaggeration
             values = _of_shape(str(colouring.by), mesh, triangles, normals)
             values = values / exaggeration if colouring.by in ("z", "height") else values
         else:
-            range_ = reached(points, triangles, numbers)
-            points, triangles = linear_triangles(points, triangles, numbers, PART_OF_STEP * range_ / colouring.steps)
+            points, triangles = linear_triangles(points, triangles, *_finest(colouring, numbers, points, triangles))
             values = numbers(points)
     except InputError as error:
         raise InputError(f"{item.name}: {error.cause}") from None
     known = np.isfinite(values)
     least = float(values[known].min()) if known.any() else np.nan
     return _Valued(points, np.where(known, values, least), triangles, normals=of_surface)
+
+
+def class_limits(colouring: Colouring, values: Floats) -> Floats:
+    """(n+1,) the limits of n colours for finite numbers. Errors: InputError where there is no range for them."""
+    if colouring.at:
+        return np.array(colouring.at)
+    if colouring.logarithmic:
+        values = values[values > 0.0]
+        if not len(values):
+            raise InputError(f"colouring by {colouring.title or 'a function'}: no number is positive")
+    low = float(values.min()) if colouring.low is None else colouring.low
+    high = float(values.max()) if colouring.high is None else colouring.high
+    if low > high:
+        raise InputError(f"colouring by {colouring.title or 'a function'}: all numbers are beyond {min(low, high):g}")
+    if not colouring.logarithmic:
+        return np.linspace(low, high, colouring.steps + 1)
+    limits = low * power(high / low, np.linspace(0.0, 1.0, colouring.steps + 1))
+    limits[-1] = high
+    return limits
+
+
+def logarithmic_numbers(low: float, high: float, most: int) -> tuple[float, ...]:
+    """Powers of ten from one positive number to another; where these are few, twice and five times them too."""
+    first, last = _power(low) - 1, _power(high) + 1
+    for digits in ((1.0,), (1.0, 2.0, 5.0), tuple(float(digit) for digit in range(1, 10))):
+        values = (digit * 10.0**exponent for exponent in range(first, last + 1) for digit in digits)
+        slack = 1.0 + ZERO_OF_EXTENT
+        found = tuple(value for value in values if low <= value * slack and value <= high * slack)
+        if len(found) > 2:
+            break
+    return found[:: max(1, math.ceil(len(found) / (2.0 * most)))]
+
+
+def _power_text(value: float) -> str:
+    """A number, or a power of ten where that has many figures."""
+    exponent = _power(value)
+    digit = round(value / 10.0**exponent)
+    if abs(exponent) < MOST_DIGITS:
+        return f"{value:.6g}"
+    return f"{'' if digit == 1 else f'{digit}·'}10{str(exponent).translate(_HIGH)}"
+
+
+def shade_of(name: str) -> str:
+    """#rrggbb of a colour in full light."""
+    return "#{:02x}{:02x}{:02x}".format(*palette(name)[-1].tolist())
+
+
+def _scaled(colouring: Colouring, values: Floats, low: float | None) -> Floats:
+    """Numbers as they are linear along the bar: on logarithmic scales logarithms, of what is far below the lowest
+    colour one that is below it; NaN where that is not known."""
+    if not colouring.logarithmic:
+        return values
+    least = np.nan if low is None else low / BELOW
+    return log(np.where(values > 0.0, np.fmax(values, least), least))
+
+
+BELOW = 4.0
+"""Times that numbers are smaller than those of the lowest colour at least where they count as that small."""
+
+
+def _finest(
+    colouring: Colouring, numbers: Callable[[Floats], Floats], points: Floats, triangles: Ints
+) -> tuple[Callable[[Floats], Floats], float]:
+    """Numbers that are to be linear in triangles, and how far from it they may be: of logarithmic scales logarithms."""
+
+    given = colouring.at[0] if colouring.at else colouring.low
+
+    def scaled_numbers(places: Floats) -> Floats:
+        return _scaled(colouring, numbers(places), given)
+
+    if colouring.at or (colouring.low is not None and colouring.high is not None):
+        ends = np.array(colouring.at or (colouring.low, colouring.high), dtype=np.float64)
+        widths = np.diff(log(ends) if colouring.logarithmic else ends)
+        step = float(widths.min()) / (1 if colouring.at else colouring.steps)
+    else:
+        step = reached(points, triangles, scaled_numbers) / colouring.steps
+    return scaled_numbers, PART_OF_STEP * step
 
 
 def _has_field(item: Item, name: str) -> bool:
@@ -654,70 +765,124 @@ WIDTH_MM = 5.0
 """Of the bar."""
 
 BESIDE_MM = 22.0
-"""Of the strip beside the picture in which it stands with its numbers."""
+"""Of the strip beside the picture in which it stands with its numbers, where these have letters of the usual size."""
+
+TITLE_TIMES = 1.2
+"""The letters of the title as a multiple of those of numbers."""
+
+END = 0.8
+"""The height of the tips that show colours of what is beyond, as a part of the width of the bar."""
 
 TALL = 0.6
 """Part of the height of the page that it has."""
 
-LETTERS_MM = 2.5
-"""The height of capitals."""
-
 TICK_MM = 1.2
 """The length of ticks."""
-
-BAR_TICKS = 6
-"""About so many."""
 
 LONGEST_PART = 0.4
 """Part of the page's width that the strip has at most: on small pages all is smaller."""
 
+BAR_GAP_MM = 3.0
+"""From the picture to the bar at least, its margin among it."""
+
+TICKS_APART = 1.8
+"""From number to number at least, in heights of their capitals."""
+
 PEN = Pen(0.18)
 
 
-def strip_mm(width_mm: float) -> float:
-    """How wide the strip is on a page of this width."""
-    return min(BESIDE_MM, LONGEST_PART * width_mm)
+def strip_mm(width_mm: float, colouring: Colouring, margin_mm: float = BAR_GAP_MM) -> float:
+    """How wide the strip is on a page of this width, beside a picture with such a margin."""
+    return min(_natural_mm(colouring, margin_mm), LONGEST_PART * width_mm)
 
 
-def narrower(page: Page) -> Page:
+def _natural_mm(colouring: Colouring, margin_mm: float) -> float:
+    """How wide the strip is where there is room for it."""
+    unit = colouring.capitals_mm / BAR_LETTERS_MM
+    gap = max(BAR_GAP_MM - margin_mm, 0.0)
+    return unit * (gap + BESIDE_MM + (0.0 if _stands_above(colouring) else 2.0 * TITLE_TIMES * BAR_LETTERS_MM))
+
+
+def _stands_above(colouring: Colouring) -> bool:
+    """Whether the title has room above the bar; otherwise it runs along it, behind the numbers."""
+    size = TITLE_TIMES * colouring.capitals_mm
+    return float(np.ptp(typeset(colouring.title, size_mm=size).bounds, axis=0)[0]) < BESIDE_MM * size / (
+        TITLE_TIMES * BAR_LETTERS_MM
+    )
+
+
+def narrower(page: Page, colouring: Colouring) -> Page:
     """The part of a page that is left of the strip."""
-    return replace(page, width_mm=page.width_mm - strip_mm(page.width_mm))
+    return replace(page, width_mm=page.width_mm - strip_mm(page.width_mm, colouring, page.margin_mm))
 
 
 def with_colour_bar(
-    drawing: Drawing, bar: ColourBar, strip: float, paper: str | None = None, longest_mm: float | None = None
+    drawing: Drawing,
+    bar: ColourBar,
+    width_mm: float,
+    paper: str | None = None,
+    longest_mm: float | None = None,
+    text: str = "strokes",
+    margin_mm: float = BAR_GAP_MM,
 ) -> Drawing:
-    """The drawing on a page wider by a strip (mm), with the bar in it.
+    """The drawing on a page so wide, with the bar in the strip beside it, which its margin is beside.
 
-    paper: the colour of the strip, where the drawing has some behind it; longest_mm: longer strokes leave in parts.
+    paper: the colour of the strip, where the drawing has some behind it; longest_mm: longer strokes leave in parts;
+    text: a word of LETTERS.
     """
-    left, unit = drawing.width_mm, strip / BESIDE_MM
+    begin, own = drawing.width_mm, bar.colouring
+    unit = (width_mm - begin) / _natural_mm(own, margin_mm) * own.capitals_mm / BAR_LETTERS_MM
+    left = begin + unit * max(BAR_GAP_MM - margin_mm, 0.0)
+    size = unit * BAR_LETTERS_MM
     low, high = 0.5 * (1.0 - TALL) * drawing.height_mm, 0.5 * (1.0 + TALL) * drawing.height_mm
-    count = len(bar.colours)
-    marks: list[Fills | Paths] = []
+    marks: list[Fills | Paths | Texts] = []
     if paper is not None:
-        marks.append(_rectangles(left, left + strip, np.array([0.0, drawing.height_mm]), [paper]))
-    right = left + unit * WIDTH_MM
-    marks.append(_rectangles(left, right, np.linspace(low, high, count + 1), bar.colours))
-    lines = [np.array([(left, low), (right, low), (right, high), (left, high), (left, low)])]
-    span = bar.high - bar.low
-    ticks = round_heights(bar.low, bar.high, BAR_TICKS) if span > 0.0 else (bar.low,)
-    for value in ticks:
-        at = low + (high - low) * ((value - bar.low) / span if span > 0.0 else 0.5)
+        marks.append(_rectangles(begin, width_mm, np.array([0.0, drawing.height_mm]), [paper]))
+    right, tip = left + unit * WIDTH_MM, unit * END * WIDTH_MM
+    marks.append(_rectangles(left, right, np.linspace(low, high, len(bar.colours) + 1), bar.colours))
+    bottom, top = [(left, low), (right, low)], [(right, high), (left, high)]
+    for colour, ends, beyond in ((own.under, bottom, low - tip), (own.over, top, high + tip)):
+        if colour is not None:
+            ends.insert(1, (0.5 * (left + right), beyond))
+            marks.append(_polygon(ends, shade_of(colour)))
+    lines = [np.array([*bottom, *top, bottom[0]])]
+    texts = []
+    for place, number in bar.ticks(max(2, min(BAR_TICKS, int((high - low) / (TICKS_APART * size))))):
+        at = low + (high - low) * place
         lines.append(np.array([(right, at), (right + unit * TICK_MM, at)]))
-        place = (right + unit * (TICK_MM + 1.0), at)
-        lines += _letters(f"{value:.6g}", place, unit * LETTERS_MM, "middle")
-    lines += _letters(bar.title, (left, high + unit * LETTERS_MM), unit * LETTERS_MM * 1.2, "base")
+        texts.append(_letters(text, number, (right + unit * (TICK_MM + 1.0), at), size, "left", "middle"))
+    if own.title and _stands_above(own):
+        above = high + size + (0.0 if own.over is None else tip)
+        texts.append(_letters(text, own.title, (left, above), TITLE_TIMES * size, "left", "base"))
+    elif own.title:
+        behind = left + unit * BESIDE_MM, 0.5 * (low + high)
+        texts.append(_letters(text, own.title, behind, TITLE_TIMES * size, "centre", "middle", 90.0))
+    lines += [one.strokes[k] for one in texts for k in range(len(one.strokes))]
     marks.append(_strokes(lines, drawing.page_from_world, longest_mm))
-    layer = Layer("colour bar", PEN, tuple(marks))
-    return replace(drawing, width_mm=left + strip, layers=(*drawing.layers, layer))
+    set_ = Texts.joined([one.texts for one in texts])
+    layer = Layer("colour bar", PEN, (*marks, *([set_] if len(set_) else [])))
+    return replace(drawing, width_mm=width_mm, layers=(*drawing.layers, layer))
 
 
-def _letters(text: str, at: tuple[float, float], size: float, level: Literal["middle", "base"]) -> list[Floats]:
-    if not text:
-        return []
-    strokes = lettered(text, at, size_mm=size, align="left", level=level).strokes
-    return [strokes[k] for k in range(len(strokes))]
+def _letters(
+    text: str,
+    words: str,
+    at: tuple[float, float],
+    size: float,
+    align: Literal["left", "centre"],
+    level: Literal["middle", "base"],
+    turn: float = 0.0,
+) -> Lettering:
+    """Letters of a sort, a word of LETTERS. Errors: InputError for a character without strokes."""
+    try:
+        return LETTERS[text].plain(words, at, size_mm=size, align=align, level=level, rotation_deg=turn)
+    except InputError as error:
+        raise InputError(f"colour bar: {error.cause}") from None
+
+
+def _polygon(corners: Sequence[tuple[float, float]], colour: str) -> Fills:
+    rgb = np.array([[int(colour[k : k + 2], 16) for k in (1, 3, 5)]], dtype=np.uint8)
+    return Fills.flat(np.array(corners), np.array([0, len(corners)]), rgb)
 
 
 def _rectangles(left: float, right: float, heights: Floats, colours: Sequence[str]) -> Fills:

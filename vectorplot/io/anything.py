@@ -1,8 +1,9 @@
-"""Objects with a shape, of Python and of other libraries -> scenes: what the verbs take; cells of finite elements."""
+"""Objects with a shape, of Python and of other libraries -> scenes: what the verbs take."""
 
 from __future__ import annotations
 
 import os
+import sys
 import warnings
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
@@ -11,7 +12,7 @@ from typing import Any, NoReturn, TypeGuard
 
 import numpy as np
 
-from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.arrays import Floats, Ints
 from vectorplot.curves.curve import is_curve
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.geometry import ragged
@@ -19,88 +20,13 @@ from vectorplot.geometry.mesh import Mesh, whole_numbers
 from vectorplot.geometry.mesh_repair import repaired
 from vectorplot.io.read_file import read
 from vectorplot.scene.item import Item
-from vectorplot.scene.scales import Fields
 from vectorplot.scene.scene import Scene, renamed_cuts, renamed_labels, together
 from vectorplot.surfaces.surface import is_implicit, is_parametrised
 from vectorplot.tolerances import SINGLE_ULP, ULP
 
-# Cells of finite elements, as other libraries keep them, as faces.
-
-FACES = {
-    "triangle": ((0, 1, 2),),
-    "quad": ((0, 1, 2, 3),),
-    "tetra": ((0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)),
-    "pyramid": ((0, 3, 2, 1), (0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4)),
-    "wedge": ((0, 2, 1), (3, 4, 5), (0, 1, 4, 3), (1, 2, 5, 4), (2, 0, 3, 5)),
-    "hexahedron": ((0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)),
-}
-"""The faces of cells, counter-clockwise seen from outside; cells of higher orders list their corners first."""
-
-WITHOUT_FACES = ("vertex", "line")
-
-
-def faces_of_cells(cells: Any) -> tuple[Ints, Ints]:
-    """(c,) and (f+1,) corners and offsets of the faces of blocks of cells: of surfaces all, of volumes the outer ones.
-
-    cells: blocks with a type (a word such as triangle, quad6 or hexahedron20) and data (n,k), pairs of these, or a
-    mapping. Points and lines have no faces.
-    Errors: InputError for cells of another type.
-    """
-    parts = [part for kind, data in _blocks(cells) for part, _ in _faces(kind, data)]
-    sizes = np.concatenate([np.zeros(0, dtype=np.intp), *(np.full(len(part), part.shape[1]) for part in parts)])
-    corners = np.concatenate([np.zeros(0, dtype=np.intp), *(part.ravel() for part in parts)])
-    return corners, ragged.offsets(sizes)
-
-
-def values_of_faces(cells: Any, values: Iterable[Any]) -> np.ndarray[Any, Any]:
-    """(f,) or (f,k) the values of the cells of blocks, (n,) or (n,k) for each of these, on their faces as
-    faces_of_cells lists them; none where the blocks do not have as many."""
-    parts = []
-    for (kind, data), own in zip(_blocks(cells), values, strict=False):
-        given = np.asarray(own)
-        if len(given) != len(data):
-            return np.zeros(0)
-        parts += [given[cell] for _, cell in _faces(kind, data)]
-    return np.concatenate(parts) if parts else np.zeros(0)
-
-
-def _blocks(cells: Any) -> Iterable[tuple[str, Any]]:
-    pairs: Iterable[Any] = cells.items() if isinstance(cells, Mapping) else cells
-    return [(one.type, one.data) if hasattr(one, "data") and hasattr(one, "type") else tuple(one) for one in pairs]
-
-
-def _faces(kind: str, data: Any) -> list[tuple[Ints, Ints]]:
-    """(n,k) faces, and (n,) the cell of each, for every number of corners."""
-    shape = str(kind).rstrip("0123456789")
-    if shape in WITHOUT_FACES:
-        return []
-    if shape == "polygon":
-        lists = [np.asarray(face, dtype=np.intp) for face in data]
-        every = np.array([len(face) for face in lists], dtype=np.intp)
-        sizes = [(size, np.flatnonzero(every == size)) for size in np.unique(every).tolist()]
-        return [(np.stack([lists[k] for k in which.tolist()]), which) for _, which in sizes]
-    if shape not in FACES:
-        raise InputError(f"cells of the type {kind!r}: expected some of {', '.join(FACES)}, polygon")
-    corners = np.asarray(data, dtype=np.intp)
-    found = []
-    for size in sorted({len(face) for face in FACES[shape]}):
-        sides = [face for face in FACES[shape] if len(face) == size]
-        faces = np.concatenate([corners[:, face] for face in sides])
-        cell = np.tile(np.arange(len(corners)), len(sides))
-        once = _met_once(faces) if len(FACES[shape]) > 1 else np.ones(len(faces), dtype=np.bool_)
-        found.append((faces[once], cell[once]))
-    return found
-
-
-def _met_once(faces: Ints) -> Bools:
-    """Which faces are of one cell only: those of two lie inside."""
-    _, place, count = np.unique(np.sort(faces, axis=1), axis=0, return_inverse=True, return_counts=True)
-    return np.asarray(count[place.ravel()] == 1)
-
-
 TAKEN = (
     "a path, Scene, Item, Mesh, surface, curve, (vertices, faces), heights, a mesh of trimesh or meshio, "
-    "or a list of these"
+    "a shape of build123d or CadQuery, or a list of these"
 )
 """What the verbs take, in words."""
 
@@ -110,10 +36,10 @@ CURVE_HINT = "; vectorplot.curves.spline_curve(points, AkimaSpline()) is the cur
 
 def scene_of(shown: object) -> Scene:
     """The scene of anything with a shape: a path, read as by `vp.read`; shapes, as gray items named after what they
-    are; a mesh of another library, known by vertices and faces or by points and cells, whose volumes show their
-    outer faces; arrays of vertices (n,3) and faces (f,k); a Terrain or heights (m,n), with level lines, extreme
-    heights of arrays scaled as in files; a list of these, or a mapping that names them. Camera, page, background and
-    title are the first that any has.
+    are; a shape of build123d, CadQuery or OpenCASCADE; a mesh of another library, known by vertices and faces or by
+    points and cells, whose volumes show their outer faces; arrays of vertices (n,3) and faces (f,k); a Terrain or
+    heights (m,n), with level lines, extreme heights of arrays scaled as in files; a list of these, or a mapping that
+    names them. Camera, page, background and title are the first that any has.
     Errors: TypeError for anything else; as `vp.read`, for meshes that make no sense, and for a drawing. Warns
     InputWarning: what was repaired of other meshes and of arrays; how heights were scaled.
     """
@@ -138,6 +64,12 @@ def _scene_of(shown: Any, around: tuple[object, ...]) -> Scene:
         from vectorplot.io.terrain_files import scene_of_array
 
         return scene_of_array(shown)
+    # Only where a shape of OpenCASCADE can be, it is looked for.
+    if sys.modules.get("OCP") is not None:
+        from vectorplot.io.cad_files import cad_object_scene
+
+        if (parts := cad_object_scene(shown)) is not None:
+            return parts
     item = _item(shown)
     if item is not None:
         return Scene((item,))
@@ -184,28 +116,22 @@ def _item(shown: Any) -> Item | None:
     if is_curve(shown) or is_parametrised(shown) or is_implicit(shown):
         return Item(type(shown).__name__.lower(), shown)
     if hasattr(shown, "points") and hasattr(shown, "cells"):
-        corners, offsets = faces_of_cells(shown.cells)
-        points, of_cells = np.asarray(shown.points), getattr(shown, "cell_data", {})
-        at_faces = {name: values_of_faces(shown.cells, values) for name, values in of_cells.items()}
-        mesh = _repaired(points, corners, offsets)
-        return Item("mesh", mesh, fields=_fields(points, corners, offsets, getattr(shown, "point_data", {}), at_faces))
+        from vectorplot.io.cells import CELL_FIELDS, mesh_of_cells
+
+        points = np.asarray(shown.points)
+        whole, fields = mesh_of_cells(points, shown.cells, *(getattr(shown, name, {}) for name in CELL_FIELDS))
+        return Item("mesh", _repaired(points, whole.corners, whole.offsets), fields=fields)
     if hasattr(shown, "vertices") and hasattr(shown, "faces"):
         mesh = _from_arrays(shown.vertices, shown.faces)
         named = getattr(shown, "vertex_attributes", None), getattr(shown, "face_attributes", None)
         if not any(isinstance(one, Mapping) and one for one in named):
             return Item("mesh", mesh)
+        from vectorplot.io.cells import fields_of
+
         faces = whole_numbers(np.asarray(shown.faces))
         offsets = np.arange(0, faces.size + 1, faces.shape[1])
-        return Item("mesh", mesh, fields=_fields(np.asarray(shown.vertices), faces.ravel(), offsets, *named))
+        return Item("mesh", mesh, fields=fields_of(np.asarray(shown.vertices), faces.ravel(), offsets, *named))
     return None
-
-
-def _fields(points: np.ndarray[Any, Any], corners: Ints, offsets: Ints, vertices: Any, faces: Any) -> Fields | None:
-    """What another library has at the vertices and on the faces of a mesh that it had."""
-    if points.shape[1] == 2:
-        points = np.column_stack([points, np.zeros(len(points))])
-    given = [one if isinstance(one, Mapping) else {} for one in (vertices, faces)]
-    return Fields.of(Mesh(points.astype(np.float64), corners, offsets), *given)
 
 
 def _is_pair(vertices: object, faces: object) -> bool:

@@ -34,6 +34,7 @@ from vectorplot.scene.surface_lines import (
     GeodesicsBetween,
     IntegralLines,
     KnownCurves,
+    NamedVectors,
     PointsOf,
     ShortestPaths,
 )
@@ -99,6 +100,8 @@ def _families(make: Callable[[int], TangentField]) -> Fields:
 
 
 def _own(words: Words, at: int, owner: str) -> tuple[tuple[TangentField, ...], int]:
+    if words.words[at] and words.words[at] != "," and not words.words[at + 1].startswith('"'):
+        return (VectorField(NamedVectors(words.string(at))),), at + 1
     formulas, at = read_formulas(3, "x", "y", "z")(words, at, owner, "field_lines")
     return (VectorField(SpaceFormulas(formulas)),), at
 
@@ -249,6 +252,8 @@ def _field_text(field: TangentField) -> str:
         return f"asymptotic_lines {field.family}"
     if isinstance(field, VectorField) and isinstance(field.function, SpaceFormulas):
         return "field_lines " + " ".join(dumps(e.text) for e in field.function.formulas.expressions)
+    if isinstance(field, VectorField) and isinstance(field.function, NamedVectors):
+        return f"field_lines {dumps(field.function.name)}"
     raise InputError(f"the scene language has no word for the field {type(field).__name__}")
 
 

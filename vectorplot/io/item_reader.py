@@ -38,6 +38,7 @@ from vectorplot.io.scene_words import (
 )
 from vectorplot.io.surface_line_words import (
     CurveDraft,
+    read_contours,
     read_detail,
     read_integral_lines,
     read_isophote_edges,
@@ -153,6 +154,7 @@ def _integral_lines(reader: ItemCursor, draft: Draft) -> None:
 SURFACE_LINE_WORDS: dict[str, Callable[[ItemCursor, Draft], None]] = {
     "parameter_lines": _curves(read_parameter_lines),
     "isophotes": _curves(read_isophotes),
+    "contours": _curves(read_contours),
     "sections": _curves(read_sections),
     "level_lines": _curves(read_level_lines),
     "slices": _curves(read_slices),
@@ -513,11 +515,17 @@ def _read_surface(reader: ItemCursor, draft: Draft) -> None:
 
 
 def _read_terrain(reader: ItemCursor, draft: Draft) -> None:
-    from vectorplot.io.scene_surfaces import read_terrain_mesh
+    from vectorplot.io.scene_surfaces import TERRAIN_SUFFIXES, read_terrain_mesh
 
     reader.kind(draft, "terrain")
     reader.once(draft, "terrain")
-    draft.terrain, reader.at = read_terrain_mesh(reader.source, reader.at, draft.owner)
+    path = None
+    if reader.words[reader.at].startswith('"'):
+        if reader.files is None:
+            reader.fail("a text without a file names no files", draft)
+        path = reader.files.named(reader.source, reader.at, draft.owner, TERRAIN_SUFFIXES)
+        reader.at += 1
+    draft.terrain, reader.at = read_terrain_mesh(reader.source, reader.at, draft.owner, path)
 
 
 def _read_curve(reader: ItemCursor, draft: Draft) -> None:

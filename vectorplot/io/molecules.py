@@ -12,15 +12,19 @@ from typing import Any, NoReturn
 
 import numpy as np
 
-from vectorplot.arrays import Floats, Ints
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.curves.splines import CubicSpline, spline_curve
 from vectorplot.errors import InputError, not_installed
 from vectorplot.geometry import ragged
+from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.vectors import component_sum, cross, normalize
 from vectorplot.io.mesh_file import check_announced, check_file, file_bytes, shown
 from vectorplot.scene.extent import check_range
 from vectorplot.scene.item import Item
 from vectorplot.scene.scene import Scene
 from vectorplot.surfaces.capped_bodies import rod
 from vectorplot.surfaces.quadrics import Sphere
+from vectorplot.tolerances import COLLINEAR_OF_LENGTH
 
 # What is known of the elements: their radii, from a library, and the colours chemists give them.
 
@@ -102,6 +106,13 @@ class Molecule:
         Where the middles of the atoms are, in angstrom.
     bonds : array (b, 2)
         The numbers of the two atoms of each bond, the smaller one first.
+    orders : array (b,), optional
+        1, 2 or 3 of each bond: how many rods it is; where None one.
+    chains : tuple of arrays (k,)
+        The numbers of the atoms that the backbone of each chain runs through, in their order: the carbons C-alpha of
+        proteins, the phosphorus of nucleic acids.
+    of_chains : array (n,) of bool, optional
+        Which atoms belong to chains, and are not shown where these are tubes or ribbons; where None all.
 
     Examples
     --------
@@ -116,6 +127,9 @@ class Molecule:
     symbols: tuple[str, ...]
     places: Floats
     bonds: Ints
+    orders: Ints | None = None
+    chains: tuple[Ints, ...] = ()
+    of_chains: Bools | None = None
 
 
 def bonds_between(elements: Elements, places: Floats) -> Ints:
@@ -143,9 +157,31 @@ def bonds_between(elements: Elements, places: Floats) -> Ints:
     return np.asarray(found[np.lexsort(found.T[::-1])], dtype=np.intp)
 
 
-# What is drawn for a molecule: balls for its atoms, rods for its bonds.
+DOUBLE, DOUBLE_OF_NITROGEN, TRIPLE = 0.925, 0.905, 0.83
+"""Bonds that are shorter than these parts of the covalent radii together are double ones, those of nitrogen, whose
+single ones in amides are short too, and triple ones, of carbon and nitrogen. Those of benzene are longer: 0.95."""
 
-STYLES = ("ball-and-stick", "space-filling")
+CARBON, NITROGEN = 6, 7
+
+MANY_BONDED = (CARBON, NITROGEN, 8, 15, 16)
+"""The elements, by their numbers, that have such bonds: with these oxygen, phosphorus and sulphur."""
+
+
+def bond_orders(elements: Elements, places: Floats, bonds: Ints) -> Ints:
+    """(b,) 1, 2 or 3: whether bonds are single, double or triple ones, by their lengths."""
+    one, two = elements.number[bonds].T
+    steps = places[bonds[:, 0]] - places[bonds[:, 1]]
+    part = np.sqrt(component_sum(steps * steps)) / elements.covalent[bonds].sum(axis=1)
+    has_nitrogen = (one == NITROGEN) | (two == NITROGEN)
+    double = part < np.where(has_nitrogen, DOUBLE_OF_NITROGEN, DOUBLE)
+    triple = (part < TRIPLE) & (np.maximum(one, two) <= NITROGEN)
+    able = np.isin(one, MANY_BONDED) & np.isin(two, MANY_BONDED)
+    return np.where(able, 1 + double.astype(np.intp) + triple, 1)
+
+
+# What is drawn for a molecule: balls for its atoms, rods for its bonds, tubes and ribbons for chains.
+
+STYLES = ("ball-and-stick", "space-filling", "tube", "ribbon")
 
 BALL_OF_RADIUS = 0.25
 """The radius of a ball on sticks, as a part of the atom's van der Waals radius."""
@@ -168,20 +204,23 @@ def molecule_scene(molecule: Molecule, style: str = "ball-and-stick") -> Scene:
     ----------
     molecule : Molecule
         What is shown, in angstrom.
-    style : {"ball-and-stick", "space-filling"}
-        Small balls and rods for the bonds, or balls with the atoms' van der Waals radii.
+    style : {"ball-and-stick", "space-filling", "tube", "ribbon"}
+        Small balls, and rods for the bonds, two and three of double and triple ones; balls with the atoms' van der
+        Waals radii; or a smooth tube or band along each chain, and small balls and rods for what belongs to none.
 
     Returns
     -------
     Scene
         An item for every atom, as C12, in the colour that chemists give its element, and one for every bond, as
-        C12_N13. Numbers count from 1, in the order of the file. Of atoms in one place the largest is shown, the first
-        of these; of bonds from an atom in one direction the shortest.
+        C12_N13, of which more rods are C12_N13_2 and C12_N13_3. Numbers count from 1, in the order of the file. Of
+        atoms in one place the largest is shown, the first of these; of bonds from an atom in one direction the
+        shortest. Chains are chain_1, chain_2, in colours that come again.
 
     Raises
     ------
     InputError
-        For other styles, and where the library gemmi, which knows the radii, is not installed.
+        For other styles, for tubes and ribbons where there is no chain, and where
+        the library gemmi, which knows the radii, is not installed.
 
     Examples
     --------
@@ -195,7 +234,13 @@ def molecule_scene(molecule: Molecule, style: str = "ball-and-stick") -> Scene:
     if style not in STYLES:
         raise InputError(f"molecule: style {style!r}: expected {' or '.join(STYLES)}")
     names = [f"{symbol}{number}" for number, symbol in enumerate(molecule.symbols, start=1)]
-    with_rods = style == "ball-and-stick"
+    with_rods = style != "space-filling"
+    along = style in ("tube", "ribbon")
+    if along and not molecule.chains:
+        raise InputError(f"molecule {molecule.name}: there is no chain for a {style}")
+    alone = np.ones(len(names), dtype=np.bool_)
+    if along:
+        alone &= False if molecule.of_chains is None else ~molecule.of_chains
     radii = elements_of(molecule.symbols).van_der_waals * (BALL_OF_RADIUS if with_rods else 1.0)
     one = _in_their_places(molecule.places, radii)
     items = [
@@ -205,12 +250,66 @@ def molecule_scene(molecule: Molecule, style: str = "ball-and-stick") -> Scene:
             molecule.symbols,
             radii.tolist(),
             np.asarray(molecule.places).tolist(),
-            (one == np.arange(len(names))).tolist(),
+            ((one == np.arange(len(names))) & alone).tolist(),
             strict=True,
         )
         if shown
     ]
-    return Scene((*items, *(_sticks(molecule, names, radii, one) if with_rods else ())), title=molecule.name)
+    sticks = _sticks(molecule, names, radii, one, alone) if with_rods else []
+    bands = [_band(molecule, number, style) for number in range(len(molecule.chains))] if along else []
+    return Scene((*items, *sticks, *bands), title=molecule.name)
+
+
+# Chains of proteins as tubes and bands along splines.
+
+HALF_SIZES = {"tube": (0.5, 0.5), "ribbon": (1.2, 0.3)}
+"""Half of the width and of the thickness of bands, in angstrom."""
+
+CHAIN_COLOURS = ("blue", "orange", "green", "magenta", "cyan", "yellow", "pink", "gray")
+
+STEPS, AROUND = 12, 16
+"""Sections of a band for each atom of its chain, and corners of a section: so many that it looks round."""
+
+
+def _band(molecule: Molecule, number: int, style: str) -> Item:
+    """The band along a chain: sections of an ellipse across the spline through its atoms, and flat ends."""
+    points = molecule.places[molecule.chains[number]]
+    wide, thick = HALF_SIZES[style]
+    spline = spline_curve(points, CubicSpline())
+    t = np.linspace(spline.start, spline.end, STEPS * (len(points) - 1) + 1)
+    middle, way = spline.points(t), normalize(spline.tangents(t))
+    side = np.stack([np.interp(t, np.linspace(t[0], t[-1], len(points)), one) for one in _sides(points).T], axis=1)
+    side = normalize(side - component_sum(side * way)[:, None] * way)
+    up = cross(way, side)
+    turn = np.arange(AROUND) * (2.0 * np.pi / AROUND)
+    # Normals turn evenly from corner to corner, which no crease comes of.
+    across, beside = wide**2 * np.cos(turn)[:, None], thick**2 * np.sin(turn)[:, None]
+    far = np.sqrt(wide**2 * np.cos(turn) ** 2 + thick**2 * np.sin(turn) ** 2)[:, None]
+    across, beside = across / far, beside / far
+    vertices = (middle[:, None] + across * side[:, None] + beside * up[:, None]).reshape(-1, 3)
+    place = np.arange(len(t) * AROUND).reshape(len(t), AROUND)
+    ahead = np.roll(place, -1, axis=1)
+    walls = np.stack([place[:-1], ahead[:-1], ahead[1:], place[1:]], axis=-1).reshape(-1)
+    corners = np.concatenate([walls, place[0, ::-1], place[-1]])
+    sizes = np.concatenate([np.full(len(walls) // 4, 4), (AROUND, AROUND)])
+    colour = CHAIN_COLOURS[number % len(CHAIN_COLOURS)]
+    return Item(f"chain_{number + 1}", Mesh(vertices, corners, ragged.offsets(sizes)), colour, lines=("contour",))
+
+
+def _sides(points: Floats) -> Floats:
+    """(n,3) unit vectors across a chain at its points: square to the plane of a point and its neighbours, and on one
+    side all along. Source: Carson and Bugg, Algorithm for ribbon models of proteins, 1986."""
+    steps = np.diff(points, axis=0)
+    bent = cross(steps[:-1], steps[1:]) if len(steps) > 1 else np.zeros((0, 3))
+    size = np.sqrt(component_sum(bent * bent))
+    straight = size <= COLLINEAR_OF_LENGTH * component_sum(steps[:1] * steps[:1])[0]
+    aside = cross(steps[:1], np.eye(3)[np.argmin(np.abs(steps[0]))][None])[0]
+    known = np.where(straight, -1, np.arange(len(bent)))
+    last = np.maximum.accumulate(known) if len(known) else known
+    found = np.where((last < 0)[:, None], bent[~straight][:1] if (~straight).any() else aside, bent[last])
+    found = normalize(np.concatenate([found[:1], found, found[-1:]]) if len(found) else np.stack([aside] * len(points)))
+    turns = np.where(component_sum(found[1:] * found[:-1]) < 0.0, -1.0, 1.0)
+    return np.asarray(found * np.concatenate([[1.0], np.cumprod(turns)])[:, None])
 
 
 def _in_their_places(places: Floats, radii: Floats) -> Ints:
@@ -244,19 +343,69 @@ def _seen_once(bonds: Ints, places: Floats) -> Ints:
     return np.delete(bonds, long[within] % max(len(bonds), 1), axis=0)
 
 
-def _sticks(molecule: Molecule, names: list[str], radii: Floats, shown: Ints) -> list[Item]:
-    """The bonds, from ball to ball; shown: the atom in the place of each."""
+def _sticks(molecule: Molecule, names: list[str], radii: Floats, shown: Ints, alone: Bools) -> list[Item]:
+    """The bonds, from ball to ball; shown: the atom in the place of each; alone: which atoms are shown."""
     bonds = _seen_once(shown[molecule.bonds], molecule.places)
+    bonds = bonds[alone[bonds].all(axis=1)]
     one, two = bonds.T
     start, end = molecule.places[one], molecule.places[two]
     way = end - start
     unit = way / np.linalg.norm(way, axis=1, keepdims=True)
     start, end = start + WITHIN_BALL * radii[one, None] * unit, end - WITHIN_BALL * radii[two, None] * unit
     apart = ((end - start) * way).sum(axis=1) > 0.0
+    order, bonds = _orders_of(molecule, bonds)[apart], bonds[apart]
+    # Rods of one bond lie side by side in the plane of the neighbours, its middle between them.
+    bond = np.repeat(np.arange(len(bonds)), order)
+    place = ragged.place(order)
+    off = (place - 0.5 * (order[bond] - 1))[:, None] * ROD_APART * _beside(bonds, molecule)[bond]
+    start, end = start[apart][bond] + off, end[apart][bond] + off
+    radius = np.where(order[bond] > 1, THIN_ROD, STICK_RADIUS)
+    rows = zip(bonds[bond].tolist(), place.tolist(), start.tolist(), end.tolist(), radius.tolist(), strict=True)
     return [
-        Item(f"{names[a]}_{names[b]}", rod(begin, stop, STICK_RADIUS), "gray")
-        for (a, b), begin, stop in zip(bonds[apart].tolist(), start[apart].tolist(), end[apart].tolist(), strict=True)
+        Item(f"{names[a]}_{names[b]}{f'_{k + 1}' if k else ''}", rod(begin, stop, thick), "gray")
+        for (a, b), k, begin, stop, thick in rows
     ]
+
+
+ROD_APART, THIN_ROD = 0.2, 0.07
+"""In angstrom: from axis to axis of the rods of a double bond, and their radius."""
+
+
+def _orders_of(molecule: Molecule, bonds: Ints) -> Ints:
+    """(b,) the orders of some bonds of a molecule; 1 of those that are others than it lists."""
+    if molecule.orders is None or not len(molecule.bonds):
+        return np.ones(len(bonds), dtype=np.intp)
+    count = len(molecule.places)
+    low, high = np.sort(molecule.bonds, axis=1).T
+    key = low * count + high
+    order = np.argsort(key, kind="stable")
+    asked = bonds[:, 0] * count + bonds[:, 1]
+    at = np.minimum(np.searchsorted(key[order], asked), len(key) - 1)
+    return np.where(key[order][at] == asked, np.asarray(molecule.orders, dtype=np.intp)[order][at], 1)
+
+
+def _beside(bonds: Ints, molecule: Molecule) -> Floats:
+    """(b,3) unit vectors square to bonds, in the plane of a neighbour of one of their atoms where one is beside."""
+    if not len(bonds):
+        return np.zeros((0, 3))
+    atom, other = np.concatenate([molecule.bonds, molecule.bonds[:, ::-1]]).T
+    order = np.lexsort((other, atom))
+    atom, other = atom[order], other[order]
+    first, last = (np.searchsorted(atom, bonds, side=side) for side in ("left", "right"))
+    places = molecule.places
+    unit = normalize(places[bonds[:, 1]] - places[bonds[:, 0]])
+    found = np.zeros((len(bonds), 3))
+    for end in (1, 0):
+        # The first neighbour that is not the other end.
+        at = first[:, end] + (other[np.minimum(first[:, end], len(other) - 1)] == bonds[:, 1 - end])
+        there = at < last[:, end]
+        way = places[other[np.minimum(at, len(other) - 1)]] - places[bonds[:, end]]
+        way = way - component_sum(way * unit)[:, None] * unit
+        size = np.sqrt(component_sum(way * way))
+        found = np.where((there & (size > SAME_PLACE))[:, None], way, found)
+    aside = np.eye(3)[np.argmin(np.abs(unit), axis=1)]
+    lost = component_sum(found * found) == 0.0
+    return normalize(np.where(lost[:, None], cross(unit, aside), found))
 
 
 # The xyz format: a count, a line of comment, then an atom a line.
@@ -389,19 +538,56 @@ def read_molecule(path: str | os.PathLike[str]) -> Molecule:
     """
     path = Path(path)
     check_file(path)
-    symbols, places = read_xyz(path) if path.suffix.lower() == ".xyz" else _of_data_bank(path)
+    backbone = NO_BACKBONE
+    if path.suffix.lower() == ".xyz":
+        symbols, places = read_xyz(path)
+    else:
+        symbols, places, backbone = _of_data_bank(path)
     if not np.isfinite(places).all():
         raise InputError("a place is not finite", file=shown(path))
     try:
         check_range(np.stack([places.min(axis=0), places.max(axis=0)]))
-        bonds = bonds_between(elements_of(symbols), places)
+        elements = elements_of(symbols)
+        bonds = bonds_between(elements, places)
     except InputError as error:
         raise InputError(error.cause, file=shown(path)) from None
-    return Molecule(path.stem, symbols, places, bonds)
+    orders = bond_orders(elements, places, bonds)
+    return Molecule(path.stem, symbols, places, bonds, orders, *backbone.chains(places))
 
 
-def _of_data_bank(path: Path) -> tuple[tuple[str, ...], Floats]:
-    """The atoms of a file of the Protein Data Bank."""
+LONGEST_STEP = {"CA": 4.5, "P": 9.0}
+"""In angstrom: atoms of a backbone that are farther apart belong to different pieces of a chain."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Backbone:
+    """Of every atom of a file: the number of its chain and of its residue, and its own name."""
+
+    chain: tuple[int, ...]
+    residue: tuple[int, ...]
+    name: tuple[str, ...]
+
+    def chains(self, places: Floats) -> tuple[tuple[Ints, ...], Bools | None]:
+        """The backbones of chains, pieces of two atoms or more, and which atoms (n,) are of residues on them."""
+        if not self.name:
+            return (), None
+        names, chain, residue = np.array(self.name), np.array(self.chain), np.array(self.residue)
+        pieces: list[Ints] = []
+        for kind, longest in LONGEST_STEP.items():
+            atoms = np.flatnonzero(names == kind)
+            steps = places[atoms[1:]] - places[atoms[:-1]]
+            apart = (component_sum(steps * steps) > longest**2) | (chain[atoms[1:]] != chain[atoms[:-1]])
+            pieces += [piece for piece in np.split(atoms, np.flatnonzero(apart) + 1) if len(piece) > 1]
+        of_residue = np.zeros(int(residue.max()) + 1, dtype=np.bool_)
+        of_residue[residue[np.concatenate([np.zeros(0, dtype=np.intp), *pieces])]] = True
+        return tuple(pieces), of_residue[residue]
+
+
+NO_BACKBONE = _Backbone((), (), ())
+
+
+def _of_data_bank(path: Path) -> tuple[tuple[str, ...], Floats, _Backbone]:
+    """The atoms of a file of the Protein Data Bank, and the chains they belong to."""
     gemmi = gemmi_library()
     try:
         if path.suffix.lower() in (".pdb", ".ent"):
@@ -411,7 +597,7 @@ def _of_data_bank(path: Path) -> tuple[tuple[str, ...], Floats]:
             document = gemmi.cif.read(os.fspath(path))
             structure = gemmi.make_structure_from_block(document[0])
             if not len(structure) or not any(True for _ in structure[0].all()):
-                return _of_small_structure(path, document)
+                return (*_of_small_structure(path, document), NO_BACKBONE)
     except InputError:
         raise
     except (RuntimeError, ValueError, OSError) as error:
@@ -422,8 +608,17 @@ def _of_data_bank(path: Path) -> tuple[tuple[str, ...], Floats]:
         raise InputError("no atoms in this file", file=shown(path))
     structure.remove_alternative_conformations()
     model = structure[0]
-    whole = [(a.atom.element.name, a.atom.pos.tolist()) for a in model.all() if not a.residue.is_water()]
-    return _apart(whole or [(a.atom.element.name, a.atom.pos.tolist()) for a in model.all()], path)
+    every = list(model.all())
+    kept = [a for a in every if not a.residue.is_water()] or every
+    chains: dict[str, int] = {}
+    residues: dict[tuple[str, str], int] = {}
+    # An atom of calcium has the name of a C-alpha too.
+    backbone = _Backbone(
+        tuple(chains.setdefault(a.chain.name, len(chains)) for a in kept),
+        tuple(residues.setdefault((a.chain.name, str(a.residue.seqid)), len(residues)) for a in kept),
+        tuple(a.atom.name if a.atom.element.name in ("C", "P") else "" for a in kept),
+    )
+    return (*_apart([(a.atom.element.name, a.atom.pos.tolist()) for a in kept], path), backbone)
 
 
 def _of_small_structure(path: Path, document: Any) -> tuple[tuple[str, ...], Floats]:

@@ -312,6 +312,7 @@ def _surface(draft: Draft, surface: Surface | ImplicitSurface) -> tuple[Surface 
         ("smooth_lines", draft.curves.lines.smooth),
         ("isophote_edges", draft.curves.lines.along_edges),
         ("smooth_contours", draft.curves.lines.smooth_contours),
+        ("contours", draft.curves.lines.contours),
     ):
         if given:
             raise InputError(f"'{word}' is for polyhedra only")

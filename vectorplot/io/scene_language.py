@@ -35,6 +35,7 @@ from vectorplot.io.scene_statements import (
     read_light,
     read_measures,
     read_page,
+    read_scale_bar,
 )
 from vectorplot.io.scene_words import ANNOTATION_WORDS, SCENE_WORDS, Words
 from vectorplot.scene.annotations import label_anchors
@@ -263,6 +264,9 @@ class _Reader(ItemReader):
         elif word == "box_axes":
             box, self.at = read_box_axes(source, self.at)
             self.settings = replace(now, box=box)
+        elif word == "scale_bar":
+            bar, self.at = read_scale_bar(source, self.at)
+            self.settings = replace(now, scale_bar=bar)
         else:
             self.at += 1
             if word == "title":

@@ -30,6 +30,7 @@ from vectorplot.scene.annotations import (
 )
 from vectorplot.scene.cuts import AWAY, AXES, Cut, Explosion
 from vectorplot.scene.labels import (
+    DEFAULT_SIZE_MM,
     HIDDEN,
     MARKS,
     PLACES,
@@ -42,10 +43,10 @@ from vectorplot.scene.labels import (
     capital_height,
 )
 from vectorplot.scene.light import Exposure, Light, check_exposure
-from vectorplot.scene.page import FIT, LENGTH, Page, length_mm, sheet_size
+from vectorplot.scene.page import FIT, LENGTH, SCALE, Page, length_mm, scale_ratio, sheet_size
 from vectorplot.scene.pens import CUES, FINEST_MM, LONGEST_MM, PEN_KINDS, WIDEST_MM, DepthCue, PenOverrides
-from vectorplot.scene.placement import fitted_page, page_of_width
-from vectorplot.scene.scales import BoxAxes, Colouring
+from vectorplot.scene.placement import fitted_page, page_at_scale, page_of_width
+from vectorplot.scene.scales import BoxAxes, Colouring, ScaleBar
 from vectorplot.scene.scene import Scene
 from vectorplot.words import COLOURS, STYLE_WORDS, is_colour, nearest
 
@@ -157,12 +158,15 @@ def read_page(words: Words, at: int) -> tuple[Page, int]:
     if not words.words[at + 1]:
         words.fail(at + 1, "page: expected a size, got the end of the file")
     try:
-        first, wide = words.words[at + 1].lower(), None
+        first, wide, ratio = words.words[at + 1].lower(), None, ""
         # The margin may come yet: it is checked with the size.
-        size = (Page().width_mm, Page().height_mm) if first in (FIT, "width") else sheet_size(first)
+        size = (Page().width_mm, Page().height_mm) if first in (FIT, SCALE, "width") else sheet_size(first)
         if first == "width":
             wide = length_mm(words.words[at + 2])
-        at += 1 if first == FIT else 3 if first == "width" else 2
+        if first == SCALE:
+            ratio = words.words[at + 2]
+            scale_ratio(ratio)
+        at += 1 if first == FIT else 3 if first in ("width", SCALE) else 2
         margin: float | None = None
         way, fitted = "", False
         while (word := words.words[at]) in _PAGE_WORDS:
@@ -175,10 +179,12 @@ def read_page(words: Words, at: int) -> tuple[Page, int]:
         _check_spelling(words, start, at, _PAGE_WORDS)
         page = Page(*size) if margin is None else Page(*size, margin)
         page = page.landscape if way == "landscape" else page.portrait if way == "portrait" else page
+        if fitted and (wide is not None or ratio):
+            words.fail(start, f"page: a {first} and fit exclude each other")
         if wide is not None:
-            if fitted:
-                words.fail(start, "page: a width and fit exclude each other")
             return page_of_width(page, wide), at
+        if ratio:
+            return page_at_scale(page, ratio), at
         return (fitted_page(page) if fitted else page), at
     except InputError as error:
         if error.file is not None:
@@ -330,37 +336,80 @@ def _check_spelling(words: Words, start: int, at: int, known: tuple[str, ...]) -
         words.fail(at, f"{words.words[start]}: unknown word {words.shown(at)} (did you mean '{meant}'?)")
 
 
+COLOUR_BY_WORDS = (
+    *("map", "steps", "called", "low", "high", "classes", "logarithmic", "under", "over", "unlit", "size"),
+)
+"""What may stand behind what colours are by."""
+
+
 def read_colouring(words: Words, at: int) -> tuple[Colouring, int]:
     """The colours that the words from ``colour_by`` on describe, and the word behind them."""
     start, owner = at, "colour_by: "
     if words.words[at + 1] in ("", ",") or words.is_number(at + 1):
         words.fail(at + 1, f"{owner}expected a word or a formula, got {words.shown(at + 1)}")
     by, at = words.string(at + 1), at + 2
-    colour_map, steps, label = "viridis", 24, None
-    while (word := words.words[at]) in ("map", "steps", "called"):
+    given: dict[str, Any] = {}
+    while (word := words.words[at]) in COLOUR_BY_WORDS:
+        if word in ("logarithmic", "unlit"):
+            given["logarithmic" if word == "logarithmic" else "is_lit"] = word == "logarithmic"
+            at += 1
+            continue
+        if word == "classes":
+            limits, at = [words.number(at + 1, owner, word)], at + 2
+            while words.words[at] == ",":
+                limits.append(words.number(at + 1, owner, word))
+                at += 2
+            given["at"] = tuple(limits)
+            continue
         if word == "steps":
-            steps = words.whole(at + 1, owner, word)
+            given["steps"] = words.whole(at + 1, owner, word)
+        elif word in ("low", "high"):
+            given[word] = words.number(at + 1, owner, word)
+        elif word in ("under", "over"):
+            given[word], _ = _known_colour(words, at + 1, f"{owner}{word}: ")
+        elif word == "size":
+            given["size_mm"] = words.string(at + 1)
         elif words.words[at + 1] in ("", ","):
             words.fail(at + 1, f"{owner}expected what '{word}' is, got {words.shown(at + 1)}")
         elif word == "map":
-            colour_map = words.string(at + 1)
+            given["colour_map"] = words.string(at + 1)
         elif words.words[at + 1].startswith('"'):
-            label = words.string(at + 1)
+            given["label"] = words.string(at + 1)
         else:
             words.fail(at + 1, f"{owner}expected a text in quotes, got {words.shown(at + 1)}")
         at += 2
     try:
-        return Colouring(by, colour_map, steps, label), at
+        return Colouring(by, **given), at
+    except InputError as error:
+        words.fail(start, error.cause)
+
+
+def read_scale_bar(words: Words, at: int) -> tuple[ScaleBar, int]:
+    """The bar that the words from ``scale_bar`` on describe, and the word behind them."""
+    start, at = at, at + 1
+    given: dict[str, Any] = {}
+    if words.words[at].startswith('"'):
+        given["unit"], at = words.string(at), at + 1
+    while (word := words.words[at]) in ("length", "size"):
+        if word == "length":
+            given["length"] = words.number(at + 1, "scale_bar: ", word)
+        else:
+            given["size_mm"] = words.string(at + 1)
+        at += 2
+    _check_spelling(words, start, at, ("length", "size"))
+    try:
+        return ScaleBar(**given), at
     except InputError as error:
         words.fail(start, error.cause)
 
 
 def read_box_axes(words: Words, at: int) -> tuple[BoxAxes, int]:
     """The box that the words from ``box_axes`` on describe, and the word behind them."""
-    names, size, after = ("x", "y", "z"), 3.5, at + 1
+    size: float | str = DEFAULT_SIZE_MM
+    names, after = ("x", "y", "z"), at + 1
     while (word := words.words[after]) in ("names", "size"):
         if word == "size":
-            size, after = words.number(after + 1, "box_axes: ", word), after + 2
+            size, after = words.string(after + 1), after + 2
             continue
         for place in range(after + 1, after + 4):
             if not words.words[place].startswith('"'):

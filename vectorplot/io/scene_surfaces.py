@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import partial
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -20,13 +22,14 @@ from vectorplot.io.named_shapes import CURVES, SURFACES, read_points, read_rows
 from vectorplot.io.scene_words import Words
 from vectorplot.io.shape_arguments import Family, Slot, read_family, read_number, read_numbers, read_whole
 from vectorplot.io.surface_line_words import AXES, CurveDraft
+from vectorplot.io.terrain_files import land_of_file
 from vectorplot.scene.added_lines import evenly_between, least_extent
 from vectorplot.scene.extent import smooth_bounds
 from vectorplot.scene.surface_lines import Section, SurfaceLines, Vector, with_index_lines
 from vectorplot.scene.terrains import terrain_mesh
 from vectorplot.surfaces.placed_surface import PlacedImplicit, PlacedSurface
 from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_implicit, is_parametrised
-from vectorplot.surfaces.terrains import densified_terrain, exaggerated, terrain, terrain_of_points
+from vectorplot.surfaces.terrains import Terrain, densified_terrain, exaggerated, terrain, terrain_of_points
 from vectorplot.words import nearest
 
 # Smooth surfaces of scene files: which one, and where it stands; loaded where a file has one.
@@ -141,8 +144,16 @@ SCATTERED_CELLS = (40.0, 40.0)
 """Cells of the grid over scattered points where nothing else is said."""
 
 
-def read_terrain_mesh(words: Words, at: int, owner: str) -> tuple[Mesh, int]:
-    """The terrain whose slots stand at a word, and the word behind them."""
+TERRAIN_SUFFIXES = (".asc", ".xyz")
+"""Of the files of heights that a scene may name."""
+
+
+def read_terrain_mesh(words: Words, at: int, owner: str, path: Path | None = None) -> tuple[Mesh, int]:
+    """The terrain whose slots stand at a word, or of a file of heights, and the word behind them."""
+    if path is not None:
+        slots = {name: TERRAIN.slots[name] for name in ("densified", "exaggeration")}
+        of_file = Family(slots, (), partial(_of_file, land_of_file(path)))
+        return read_family(words, at, owner, "terrain", {"terrain": of_file})
     return read_family(words, at, owner, "terrain", {"terrain": TERRAIN})
 
 
@@ -170,6 +181,11 @@ def _build(
         raise InputError("terrain: expected 'heights' or 'points'")
     if densified != 1:
         land = densified_terrain(land, densified)
+    return terrain_mesh(exaggerated(land, exaggeration))
+
+
+def _of_file(land: Terrain, *, densified: int, exaggeration: float) -> Mesh:
+    land = land if densified == 1 else densified_terrain(land, densified)
     return terrain_mesh(exaggerated(land, exaggeration))
 
 

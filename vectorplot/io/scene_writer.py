@@ -30,8 +30,8 @@ from vectorplot.scene.item import Item, Pattern
 from vectorplot.scene.labels import Along, AtVertex, BesidePoint, Label, Measures, OnCurve, OnPage
 from vectorplot.scene.light import Light
 from vectorplot.scene.material import FINISH_WORDS, Material
-from vectorplot.scene.page import Page
-from vectorplot.scene.placement import FittedPage, PageOfWidth
+from vectorplot.scene.page import Page, in_latex
+from vectorplot.scene.placement import FittedPage, PageAtScale, PageOfWidth
 from vectorplot.scene.scales import Colouring
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.surface_lines import NO_LINES, Roads, Serpentine, SurfaceLines, TerrainLines, WaterCourses
@@ -105,6 +105,9 @@ def lines_text(curves: SurfaceLines, lights: Sequence[Light]) -> str:
 
         words += [integral_text(lines) for lines in curves.integral]
     words += [_terrain_text(asked) for asked in curves.terrain]
+    for one in curves.contours:
+        said = str(one.values) if isinstance(one.values, int) else f"at {_list(one.values)}"
+        words.append(f"contours {dumps(one.name)} {said}")
     words += ["smooth_contours"] * curves.smooth_contours
     words += ["smooth_lines"] * curves.smooth + ["isophote_edges"] * curves.along_edges
     words += [f"detail {_numbers((curves.detail,))}"] * (curves.detail != 1.0)
@@ -370,7 +373,11 @@ def write_scene(scene: Scene) -> str:
     if scene.colouring is not None:
         blocks.append(_colouring(scene.colouring))
     if scene.box is not None:
-        blocks.append(f"box_axes names {' '.join(map(dumps, scene.box.names))} size {scene.box.size_mm:.17g}")
+        blocks.append(f"box_axes names {' '.join(map(dumps, scene.box.names))} size {_size(scene.box.capitals_mm)}")
+    if scene.scale_bar is not None:
+        bar = scene.scale_bar
+        length = "" if bar.length is None else f" length {bar.length:.17g}"
+        blocks.append(f"scale_bar {dumps(bar.unit)}{length} size {_size(bar.capitals_mm)}")
     if scene.page is not None:
         blocks.append(_page(scene.page))
     if scene.camera is not None:
@@ -397,8 +404,13 @@ def _name(text: str) -> str:
 def _colouring(own: Colouring) -> str:
     if not isinstance(own.by, str):
         raise InputError("colours by a function of Python have no words")
-    called = "" if own.label is None else f" called {dumps(own.label)}"
-    return f"colour_by {dumps(own.by)} map {dumps(own.colour_map)} steps {own.steps}{called}"
+    words = [f"colour_by {dumps(own.by)} map {dumps(own.colour_map)} steps {own.steps}"]
+    words += [] if own.label is None else [f"called {dumps(own.label)}"]
+    words += [f"classes {', '.join(f'{limit:.17g}' for limit in own.at)}"] if own.at else []
+    words += [f"{word} {end:.17g}" for word, end in (("low", own.low), ("high", own.high)) if end is not None]
+    words += [f"{word} {_colour(name)}" for word, name in (("under", own.under), ("over", own.over)) if name]
+    words += [*(["logarithmic"] if own.logarithmic else []), *([] if own.is_lit else ["unlit"])]
+    return " ".join([*words, f"size {_size(own.capitals_mm)}"])
 
 
 def _colour(text: str) -> str:
@@ -412,7 +424,9 @@ def _names_listed(points: Floats) -> str:
 
 def _page(page: Page) -> str:
     if isinstance(page, PageOfWidth):
-        return f"page width {page.width_mm!r} margin {page.margin_mm!r}"
+        return f"page width {in_latex(page.width_mm) or repr(page.width_mm)} margin {page.margin_mm!r}"
+    if isinstance(page, PageAtScale):
+        return f"page scale {page.mm_per_unit!r} margin {page.margin_mm!r}"
     fit = " fit" if isinstance(page, FittedPage) else ""
     return f"page {page.width_mm!r}x{page.height_mm!r}{fit} margin {page.margin_mm!r}"
 
@@ -468,11 +482,16 @@ def _label(label: Label) -> str:
         _name(label.name) if label.name else '""',
         dumps(label.text),
         place,
-        f"size {float(label.size_mm)!r}",
+        f"size {_size(label.capitals_mm)}",
     ]
     words += [f"measured {dumps(label.measured)}"] if label.measured else []
     words += [f"place {label.place}", *([f"hidden {label.hidden}"] if label.hidden else []), f"mark {label.mark}"]
     return " ".join(words)
+
+
+def _size(size_mm: float) -> str:
+    """A size of letters: the word that LaTeX has for it, or mm."""
+    return in_latex(size_mm) or repr(float(size_mm))
 
 
 def _measures(measures: Measures) -> str:

@@ -11,6 +11,7 @@ from vectorplot.scene.surface_lines import (
     NO_LINES,
     ON_MESHES,
     ON_SURFACES,
+    FieldContours,
     Roads,
     Section,
     Serpentine,
@@ -68,6 +69,20 @@ def read_parameter_lines(words: Words, at: int, owner: str, draft: CurveDraft) -
         return _with_lines(draft, at, replace(draft.lines, columns=columns, rows=rows)), at + 3
     except InputError as error:
         words.fail(at, owner + error.cause)
+
+
+def read_contours(words: Words, at: int, owner: str, draft: CurveDraft) -> tuple[CurveDraft, int]:
+    """The name of a field, and a number of its contours or their values."""
+    start = at
+    if words.words[at + 1] in ("", ",") or words.is_number(at + 1):
+        words.fail(at + 1, f"{owner}contours: expected the name of a field, got {words.shown(at + 1)}")
+    name = words.string(at + 1)
+    count, values, at = _count_or_list(words, at + 2, owner, "contours")
+    try:
+        asked = FieldContours(name, count or values)
+    except InputError as error:
+        words.fail(start, owner + error.cause)
+    return _with_lines(draft, start, replace(draft.lines, contours=(*draft.lines.contours, asked))), at
 
 
 def read_isophotes(words: Words, at: int, owner: str, draft: CurveDraft) -> tuple[CurveDraft, int]:

@@ -371,10 +371,8 @@ def scene_of_heights(path: Path, exaggeration: float | None) -> Scene:
     exaggeration: None for 1 where that shows something.
     Errors: InputError with the file.
     """
+    land = land_of_file(path)
     try:
-        land, step = thinned_terrain(read_terrain(path), MOST_DRAWN)
-        if step > 1:
-            _say(path, f"every {_ordinal(step)} height each way is taken, {' x '.join(map(str, land.heights.shape))}")
         factor = exaggeration
         if factor is None:
             factor = default_exaggeration(land)
@@ -385,6 +383,20 @@ def scene_of_heights(path: Path, exaggeration: float | None) -> Scene:
         raise (error if error.file else InputError(error.cause, file=shown(path))) from None
     except MemoryError:
         raise InputError("too large for the memory", file=shown(path)) from None
+
+
+def land_of_file(path: Path) -> Terrain:
+    """The heights of a file as they are, but that of very many every second, third, ... is taken, which is said in an
+    InputWarning. Errors: InputError with the file."""
+    try:
+        land, step = thinned_terrain(read_terrain(path), MOST_DRAWN)
+    except InputError as error:
+        raise (error if error.file else InputError(error.cause, file=shown(path))) from None
+    except MemoryError:
+        raise InputError("too large for the memory", file=shown(path)) from None
+    if step > 1:
+        _say(path, f"every {_ordinal(step)} height each way is taken, {' x '.join(map(str, land.heights.shape))}")
+    return land
 
 
 def scene_of_array(heights: Floats) -> Scene:

@@ -26,10 +26,10 @@ from vectorplot.pictures.lines import (
     traceable,
     with_outline,
 )
-from vectorplot.pictures.options import check_look, check_options
+from vectorplot.pictures.options import check_letters, check_look, check_options
 from vectorplot.pictures.pipeline import Pipeline, StageReport, stoppable
 from vectorplot.pictures.plan import accuracy_of_draw, plan_arcs, plan_draw, plan_hatching, with_accuracy
-from vectorplot.pictures.prepared_scene import Paper, beside_bar, left_of_bar, prepared_scene
+from vectorplot.pictures.prepared_scene import Legend, Paper, prepared_scene
 from vectorplot.pictures.promises import DRAWING, promised
 from vectorplot.scene.added_lines import with_default_lines
 from vectorplot.scene.hatching import Hatching, Stippling
@@ -105,6 +105,7 @@ def draw(
     title: str = "",
     frame: bool = False,
     text: Literal["strokes", "real"] = "strokes",
+    font: str | None = None,
     longest_mm: float | None = None,
     shortest_mm: float | None = None,
     off_by: float | str | None = None,
@@ -126,8 +127,8 @@ def draw(
         Or its name or size, such as "A4", "A5 landscape" or "200x150"; where None that of the scene, else A4. Of "fit"
         the latter, cut to the picture and its margin.
     width : float or str, optional
-        In mm, or with its unit, such as "8cm" (mm, cm, in, pt): the page is as wide, and as high as its picture is
-        then; of page it has the margin.
+        In mm, or with its unit, such as "8cm" (mm, cm, in, pt, bp), or a width of LaTeX, such as "0.8\\\\linewidth":
+        the page is as wide, and as high as its picture is then; of page it has the margin.
     fit : bool
         The picture fills the page but for its margin; otherwise the page centre is the target and the page height the
         camera's picture height.
@@ -181,6 +182,8 @@ def draw(
         A rectangle in the middle of the margin, which ends before the title.
     text : {"strokes", "real"}
         Letters of labels and titles are strokes of the pen; or texts, set in fonts by what reads the file.
+    font : str, optional
+        The family of fonts of texts, which PDF, PostScript and PNG hold then; or a file of a font, which SVG holds.
     longest_mm : float, optional
         Longer strokes leave in equal parts that are no longer, for plotters that stutter on them; 1 mm or more.
     shortest_mm : float, optional
@@ -243,6 +246,7 @@ def draw(
     """
     told = dict(locals())
     check_options(told)
+    check_letters(font, text)
     if off_by is not None or within is not None:
         return promised(draw, DRAWING, told)
     given = scene_of(scene) if lines is not None else with_default_lines(scene_of(scene))
@@ -260,7 +264,8 @@ def draw(
     paper = Paper(sheet, fit, pen_scale(sheet) if scale_pens else 1.0)
     prepared = prepared_scene(given, camera, paper, explain, progress, depth_cue=depth_cue)
     seen, bar = prepared.scene, prepared.bar
-    sheet, strip = left_of_bar(sheet, bar)
+    legend = Legend(sheet, bar, seen.scale_bar, text)
+    sheet = legend.room
     rules = (*chosen.rules, *own, *asked)
     finish = OutputStyle(
         look=chosen.look,
@@ -312,7 +317,7 @@ def draw(
         pipeline.measured("arcs", "mm", rounding_error_mm, inks)
     if labels is not None:
         inks, placement = finish.labelled(inks, placement, labels, letters, sheet)
-    drawing = beside_bar(finish.drawing(inks, placement, seen, letters), bar, strip, finish.background, longest_mm)
-    drawing = finish.of_pens(pipeline, drawing)
+    drawing = legend.around(finish.drawing(inks, placement, seen, letters), finish.background, longest_mm)
+    drawing = finish.of_pens(pipeline, drawing if font is None else replace(drawing, font=font))
     pipeline.measured("pen", "mm", fit_error_mm, drawing.layers)
     return drawing

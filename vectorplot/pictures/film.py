@@ -16,7 +16,7 @@ from vectorplot.geometry.camera import VIEWS, Camera
 from vectorplot.pictures.pipeline import stoppable
 from vectorplot.pictures.pixels import raster_page
 from vectorplot.scene.page import Page
-from vectorplot.scene.placement import camera_around, page_of
+from vectorplot.scene.placement import PageAtScale, camera_around, page_of
 from vectorplot.scene.scene import Scene
 from vectorplot.shading.image import Image
 from vectorplot.words import check_word, unknown
@@ -287,6 +287,10 @@ def animate(
     if pixels and min(size) < 1:
         raise InputError(f"frames of {size[0]} x {size[1]} pixels: expected 1 or more")
     sheet = raster_page(size, options.get("margin_pixels"), 1.0) if pixels else page_of(page, first, width, fit)
+    if isinstance(sheet, PageAtScale):
+        raise InputError("a page at a scale is of single pictures: a film has one page for all its frames")
+    if first.scale_bar is not None:
+        raise InputError("a scale bar is of single pictures, not of films")
     if not fit:
         return film if pixels else replace(film, page=sheet)
 
@@ -300,7 +304,7 @@ def animate(
     if first.colouring is not None:
         from vectorplot.effects.colour_maps import narrower
 
-        room = narrower(sheet)
+        room = narrower(sheet, first.colouring)
     fitted, zoom = steady_fit(views(), room)
     return replace(film, page=None if pixels else sheet if room is not sheet else fitted, zoom=zoom)
 

@@ -734,7 +734,8 @@ def _outlined(item: Item, asking: bool) -> Item:
     if not asking or is_annotation(item):
         return replace(item, lines=(), occludes=False)
     curves = replace(item.curves, smooth_contours=False)
-    return replace(item, lines=None, occludes=True, curves=curves, drawn_edges=None, added_edges=None)
+    bare = replace(item, drawn_edges=None, added_edges=None, tangent_edges=None)
+    return replace(bare, lines=None, occludes=True, curves=curves)
 
 
 def _border_sources(shapes: LineSources, budget: Budget) -> LineSources:

@@ -114,6 +114,7 @@ OPTIONS: dict[str, Option] = {
     "hidden": _word("none", "dashed", "solid", optional=True),
     "curves": _word("bezier", "polyline", "arcs"),
     "text": _word(*TEXT_WORDS),
+    "font": Option("the name of a family of fonts, or a file", _is(str)),
     "fills": _word("painted", "visible", "erasing"),
     "transparency": _word("blended", "sparse"),
     "crease_angle_deg": _number("a crease angle of {:g} degrees", 0.0, 180.0),
@@ -164,6 +165,17 @@ def check_options(arguments: Mapping[str, object]) -> None:
     for name, option in OPTIONS.items():
         if name in arguments:
             option.check(name, arguments[name])
+
+
+def check_letters(font: str | None, text: str) -> None:
+    """InputError for a font that is none, and for one of letters that are strokes."""
+    if font is None:
+        return
+    from vectorplot.drawing.texts import check_font
+
+    check_font(font)
+    if text == "strokes":
+        raise InputError("font: letters are strokes; with text='real' (--text real) they have a font")
 
 
 def check_look(style: str, **others: bool) -> None:

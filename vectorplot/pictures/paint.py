@@ -28,7 +28,7 @@ from vectorplot.pictures.fills import (
 )
 from vectorplot.pictures.fills import background as background_of
 from vectorplot.pictures.lines import PEN, LineOverlay, places_beside_faces
-from vectorplot.pictures.options import SHADOWS, check_options
+from vectorplot.pictures.options import SHADOWS, check_letters, check_options
 from vectorplot.pictures.pipeline import Pipeline, StageReport, stoppable
 from vectorplot.pictures.plan import (
     accuracy_of_paint,
@@ -39,7 +39,7 @@ from vectorplot.pictures.plan import (
     plan_surface_bands,
     with_accuracy,
 )
-from vectorplot.pictures.prepared_scene import Paper, beside_bar, left_of_bar, prepared_scene, room_for_labels, titled
+from vectorplot.pictures.prepared_scene import Legend, Paper, prepared_scene, room_for_labels, titled
 from vectorplot.pictures.promises import PAINTING, promised
 from vectorplot.scene.added_lines import with_default_lines
 from vectorplot.scene.light import Exposure, Light
@@ -127,6 +127,7 @@ def paint(
     frame: bool = False,
     text: Literal["strokes", "real"] = "strokes",
     shortest_mm: float | None = None,
+    font: str | None = None,
     off_by: float | str | None = None,
     within: float | str | None = None,
     budget: float = 1.0,
@@ -192,6 +193,8 @@ def paint(
         As in draw.
     shortest_mm : float, optional
         Lines that are shorter when they are joined are left out; none where None.
+    font : str, optional
+        As in draw.
     off_by : float or str, optional
         The error that the picture is to keep, mm, a text such as "0.01mm", or
         with the error of shades, in steps of 255, "0.01mm,4shades": tolerance_mm is chosen for it,
@@ -247,6 +250,7 @@ def paint(
     """
     told = dict(locals())
     check_options(told)
+    check_letters(font, text)
     if off_by is not None or within is not None:
         return promised(paint, PAINTING, told)
     check_word("shadows", shadows, SHADOWS["paint"])
@@ -278,7 +282,8 @@ def paint(
     names = tuple(item.name for item in scene.items)
     over = chosen if bar is None else replace(chosen, rules=bar.with_pens(chosen.rules))
     check_targets(over.rules, names)
-    sheet, strip = left_of_bar(sheet, bar)
+    legend = Legend(sheet, bar, scene.scale_bar, text)
+    sheet = legend.room
     stages = with_accuracy(plan_paint(scene, shadows, fills, kinds), accuracy_of_paint(tolerance_mm))
     if smooth and fills == "painted" and subject.chart is None and not aura_mm:
         stages = plan_surface_bands(stages) if has_banded_surfaces(scene) else stages
@@ -368,4 +373,5 @@ def paint(
             layers = (replace(layers[0], marks=(*background_of(scene, page), *layers[0].marks)), *layers[1:])
     layers = titled(layers, placement, title, frame, over.border(letters), text=text)
     drawing = Drawing(page.width_mm, page.height_mm, layers, names, scene.title, world)
-    return beside_bar(drawing, bar, strip, scene.background)
+    drawing = drawing if font is None else replace(drawing, font=font)
+    return legend.around(drawing, scene.background)

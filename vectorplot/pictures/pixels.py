@@ -94,7 +94,7 @@ def pixels_left_of_bar(size: tuple[int, int], bar: ColourBar | None) -> tuple[in
         return size
     from vectorplot.effects.colour_maps import strip_mm
 
-    return max(1, size[0] - round(strip_mm(size[0] / PIXELS_PER_MM) * PIXELS_PER_MM)), size[1]
+    return max(1, size[0] - round(strip_mm(size[0] / PIXELS_PER_MM, bar.colouring) * PIXELS_PER_MM)), size[1]
 
 
 def pixels_beside_bar(pixels: Bytes, bar: ColourBar | None, size: tuple[int, int], paper: Floats) -> Bytes:
@@ -108,7 +108,7 @@ def pixels_beside_bar(pixels: Bytes, bar: ColourBar | None, size: tuple[int, int
 
     rows, columns = pixels.shape[:2]
     width, height = columns / PIXELS_PER_MM, rows / PIXELS_PER_MM
-    drawing = with_colour_bar(Drawing(width, height, ()), bar, size[0] / PIXELS_PER_MM - width)
+    drawing = with_colour_bar(Drawing(width, height, ()), bar, size[0] / PIXELS_PER_MM)
     blank = np.broadcast_to(np.rint(paper).astype(np.uint8), (BAR_SAMPLES * rows, BAR_SAMPLES * size[0], 3))
     beside = averaged(painted(blank, drawing)[:, BAR_SAMPLES * columns :], BAR_SAMPLES)
     return np.concatenate([pixels, np.rint(beside).astype(np.uint8)], axis=1)

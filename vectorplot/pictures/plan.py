@@ -233,7 +233,7 @@ def _has_mesh_lines(item: Item) -> bool:
     """Whether an item is a polyhedron with lines of a smooth one."""
     curves = item.curves
     return isinstance(item.shape, Mesh) and bool(
-        curves.isophotes or curves.sections or curves.integral or curves.terrain
+        curves.isophotes or curves.sections or curves.integral or curves.terrain or curves.contours
     )
 
 

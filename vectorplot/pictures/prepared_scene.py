@@ -25,7 +25,8 @@ from vectorplot.scene.item import Item
 from vectorplot.scene.light import Exposure, Light
 from vectorplot.scene.page import Page
 from vectorplot.scene.pens import DepthCue, depth_cue_of
-from vectorplot.scene.placement import FittedPage, Placement, allowed_in_space, camera_of
+from vectorplot.scene.placement import FittedPage, Placement, allowed_in_space, camera_of, fitted_with_room
+from vectorplot.scene.scales import ScaleBar
 from vectorplot.scene.scene import Scene, tell_what_is_cut_off
 from vectorplot.scene.view import View, without_seams
 
@@ -92,9 +93,27 @@ class PreparedScene:
         return None if self.chart is None else self.chart.bar
 
     def around(self, placement: Placement, view: View, page: Page, mm: float = 1.0) -> Placement:
-        """The place of a picture that fills a page, with room for the numbers of a box, if there is one; mm: see
-        Scaled.around."""
-        return placement if self.chart is None else self.chart.around(placement, view, page, mm)
+        """The place of a picture that fills a page, with room for the numbers of a box, if there is one, else for the
+        labels that would leave the page; mm: see Scaled.around."""
+        placed = placement if self.chart is None else self.chart.around(placement, view, page, mm)
+        if placed is not placement or placement.filled is None or not len(self.anchors) or isinstance(page, FittedPage):
+            return placed
+        from vectorplot.drawing.labels import rooms_of_labels
+
+        world = np.where(np.isfinite(self.anchors.points), self.anchors.points, self.scene.bounds[0])
+        points = view.points_of(world)
+        if view.reaches_too_far(points):
+            return placed
+        image = np.where(np.isfinite(self.anchors.points).all(axis=1), view.image_of(points), np.nan)
+        some, low, high = rooms_of_labels(self.anchors, image.T, placement.filled, page.margin_mm / mm, mm)
+        on_page, edge = placement.on_page(image[:, some]), np.array(page.margin_mm)
+        right = np.array([placement.page.width_mm, placement.page.height_mm]) - edge
+        if (on_page + low >= edge - ROUNDING_MM).all() and (on_page + high <= right + ROUNDING_MM).all():
+            return placed
+        corners = np.concatenate([placement.filled.T, image[:, some]], axis=1)
+        nothing = np.zeros((2, 2))
+        rooms = (np.concatenate([nothing, one]).T for one in (low, high))
+        return fitted_with_room(view, page, corners, *rooms)
 
 
 def prepared_scene(
@@ -158,31 +177,58 @@ def _seen_part(
 
 # What stands around a picture on its page: a title, a frame, and a bar where colours stand for numbers.
 
+ROUNDING_MM = 1e-6
+"""Letters that leave their page by less are on it."""
+
 MOST_NAMES = 3
 """So many labels are named in a warning."""
 
 
-def left_of_bar(sheet: Page, bar: ColourBar | None) -> tuple[Page, float]:
-    """The part of a sheet that a colour bar leaves, and the width of the strip that it takes."""
-    if bar is None:
-        return sheet, 0.0
-    from vectorplot.effects.colour_maps import narrower
+@dataclass(frozen=True, eq=False)
+class Legend:
+    """What stands beside and below a picture to be read with it: a bar that says which number is which colour, and one
+    that shows a length; sheet: the whole one; text: a word of LETTERS."""
 
-    rest = narrower(sheet)
-    return rest, sheet.width_mm - rest.width_mm
+    sheet: Page
+    bar: ColourBar | None
+    scale_bar: ScaleBar | None
+    text: str = "strokes"
 
+    @property
+    def room(self) -> Page:
+        """The part of the sheet that is left for the picture. Errors: InputError where nothing is."""
+        rest = self.sheet
+        if self.bar is not None:
+            from vectorplot.effects.colour_maps import narrower
 
-def beside_bar(
-    drawing: Drawing, bar: ColourBar | None, strip: float, paper: str | None, longest_mm: float | None = None
-) -> Drawing:
-    """The drawing with a colour bar in a strip (mm) beside it; paper: the colour of that, where it has one."""
-    if bar is None:
+            rest = narrower(rest, self.bar.colouring)
+        if self.scale_bar is not None:
+            from vectorplot.drawing.titles import scale_bar_strip
+
+            rest = replace(rest, height_mm=rest.height_mm - scale_bar_strip(self.scale_bar))
+        return rest
+
+    def around(self, drawing: Drawing, paper: str | None, longest_mm: float | None = None) -> Drawing:
+        """The drawing of a picture in that room on the whole sheet, or one as large as it needs; paper: the colour of
+        what is added, where it has one; longest_mm: longer strokes leave in parts."""
+        if self.bar is None and self.scale_bar is None:
+            return drawing
+        from vectorplot.shading.palettes import palette
+
+        shade = None if paper is None else "#{:02x}{:02x}{:02x}".format(*palette(paper)[-1].tolist())
+        if self.scale_bar is not None:
+            from vectorplot.drawing.titles import with_scale_bar
+
+            drawing = with_scale_bar(drawing, self.scale_bar, self.sheet.margin_mm, self.text, shade)
+        if self.bar is not None:
+            from vectorplot.effects.colour_maps import with_colour_bar
+
+            # Pages that are cut to their picture are narrower than the sheet was.
+            beside = self.sheet.width_mm - self.room.width_mm
+            whole = drawing.width_mm + beside
+            whole = self.sheet.width_mm if drawing.width_mm == self.room.width_mm else whole
+            drawing = with_colour_bar(drawing, self.bar, whole, shade, longest_mm, self.text, self.sheet.margin_mm)
         return drawing
-    from vectorplot.effects.colour_maps import with_colour_bar
-    from vectorplot.shading.palettes import palette
-
-    shade = None if paper is None else "#{:02x}{:02x}{:02x}".format(*palette(paper)[-1].tolist())
-    return with_colour_bar(drawing, bar, strip, shade, longest_mm)
 
 
 def titled(

@@ -328,6 +328,8 @@ def _tell_what_is_missing(pipeline: Pipeline, scene: Scene, kinds: frozenset[Lin
         missing.append("patterns (their outlines come with lines of the kind pattern)")
     if any(item.material.is_clear and item.material.refraction != 1.0 for item in scene.items):
         missing.append("refraction")
+    if scene.scale_bar is not None:
+        missing.append("a scale bar")
     if missing:
         warnings.warn(f"not rendered: {', '.join(missing)}; the verb paint shows them", InputWarning, stacklevel=3)
     if scene.lights and any(item.material.is_mirror for item in scene.items):

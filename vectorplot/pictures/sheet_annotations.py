@@ -575,7 +575,7 @@ def level_measures(scene: Scene, factor: float) -> Scene:
     for label in scene.labels:
         if isinstance(label.at, Along) and MEASURE in label.measured:
             long = factor * float(norm(np.diff(_ends(items[label.at.item]), axis=0)[0]))
-            if long > LEVEL_ROOM * label.size_mm * max(len(label.text), 2):
+            if long > LEVEL_ROOM * label.capitals_mm * max(len(label.text), 2):
                 label = replace(label, at=OnCurve(label.at.item, label.at.part), place="centre")
         labels.append(label)
     return replace(scene, labels=tuple(labels))

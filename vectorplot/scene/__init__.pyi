@@ -1,13 +1,16 @@
 from .added_lines import even_sections, round_sections, with_lines
+from .annotations import field_arrows
 from .cuts import Cut, CutPlane
 from .face_looks import FaceLook, FaceLooks
 from .item import SurfaceNormals
 from .pens import DepthCue, PenOverrides
-from .scales import BoxAxes, Colouring, Fields
+from .scales import BoxAxes, Colouring, Fields, ScaleBar
 from .surface_lines import (
+    FieldContours,
     FieldLines,
     GeodesicLines,
     GeodesicsBetween,
+    NamedVectors,
     Roads,
     Serpentine,
     ShortestPaths,
@@ -27,12 +30,15 @@ __all__ = [
     "DepthCue",
     "FaceLook",
     "FaceLooks",
+    "FieldContours",
     "FieldLines",
     "Fields",
     "GeodesicLines",
     "GeodesicsBetween",
+    "NamedVectors",
     "PenOverrides",
     "Roads",
+    "ScaleBar",
     "Serpentine",
     "ShortestPaths",
     "SurfaceNormals",
@@ -40,6 +46,7 @@ __all__ = [
     "Watersheds",
     "even_cosines",
     "even_sections",
+    "field_arrows",
     "hill_light",
     "level_sections",
     "look",

@@ -143,7 +143,7 @@ def _reaching(section: Section, item: Item) -> Section:
 
 def line_kinds(lines: SurfaceLines) -> tuple[str, ...]:
     """The words of the kinds that sections and isophotes are of."""
-    isophote = ("isophote",) if lines.isophotes else ()
+    isophote = (*(["isophote"] if lines.isophotes else []), *(["section"] if lines.contours else []))
     return tuple(dict.fromkeys((*isophote, *(section.kind.word for section in lines.sections if section.offsets))))
 
 

@@ -16,7 +16,7 @@ from vectorplot.errors import InputError
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.vectors import cross, norm, normalize
+from vectorplot.geometry.vectors import component_sum, cross, norm, normalize
 from vectorplot.scene.item import Item
 from vectorplot.scene.labels import (
     DEFAULT_SIZE_MM,
@@ -29,8 +29,10 @@ from vectorplot.scene.labels import (
     Measures,
     OnCurve,
     OnPage,
+    capital_height,
 )
 from vectorplot.scene.scene import Scene, together
+from vectorplot.tolerances import ROUNDING
 
 # Arrows and axes: curves in space, hidden like any others, and labels at them.
 
@@ -45,7 +47,7 @@ MOST_TICKS = 1000
 
 
 def arrow(
-    start: ArrayLike, end: ArrayLike, text: str = "", *, name: str = "", size_mm: float = DEFAULT_SIZE_MM
+    start: ArrayLike, end: ArrayLike, text: str = "", *, name: str = "", size_mm: float | str = DEFAULT_SIZE_MM
 ) -> Scene:
     """A straight arrow in space, with a text at its tip.
 
@@ -57,7 +59,7 @@ def arrow(
         What it is called.
     name : str
         Of the item; arrow and the text where none is given.
-    size_mm : float
+    size_mm : float or str
         Of the letters.
 
     Returns
@@ -82,13 +84,81 @@ def arrow(
     return Scene((item,), labels=(Label(text, OnCurve(item.name), item.name, size_mm, mark="arrow"),))
 
 
+MOST_ARROWS = 5000
+"""Of one field."""
+
+
+def field_arrows(item: Item, name: str, *, apart: float | None = None, longest: float | None = None) -> Scene:
+    """Arrows along the vectors of a field, at vertices of a mesh.
+
+    Parameters
+    ----------
+    item : Item
+        With a mesh and the field.
+    name : str
+        Of a field of vectors, with the parts name.x, name.y and name.z.
+    apart : float, optional
+        One arrow for each cube with such an edge, at its vertex that comes first; a sixteenth of the extent of the mesh
+        where None.
+    longest : float, optional
+        The length of the longest one in world units, the others in proportion; as long as they are apart where None.
+
+    Returns
+    -------
+    Scene
+        Thin lines with arrowheads, to be drawn together with the item.
+
+    Raises
+    ------
+    InputError
+        For a field that the item has not, lengths that are not positive, and more than 5000 arrows.
+
+    Notes
+    -----
+    Edge cases: no arrow where the field has no vector or one without length.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import vectorplot as vp
+    >>> from vectorplot.scene import Fields, field_arrows
+    >>> square = vp.Mesh.from_polygons([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], [(0, 1, 2, 3)])
+    >>> wind = Fields.of(square, {"wind": np.array([(0, 0, 1.0), (0, 0, 2.0), (0, 0, 0), (0, 0, 1.0)])}, {})
+    >>> len(field_arrows(vp.Item("square", square, fields=wind), "wind"))
+    3
+    """
+    if item.fields is None:
+        raise InputError(f"{item.name}: there is no field {name!r}: the item has none")
+    points = item.mesh.vertices
+    extent = float(np.ptp(points, axis=0).max()) if len(points) else 0.0
+    step = extent / 16.0 if apart is None else apart
+    long = step if longest is None else longest
+    if not (0.0 < step < np.inf and 0.0 < long < np.inf):
+        raise InputError(f"arrows of {name}: expected positive lengths, got {step:g} apart and {long:g} long")
+    vectors = item.fields.vectors(name)(points)
+    sizes = np.sqrt(component_sum(vectors * vectors))
+    there = np.flatnonzero(np.isfinite(sizes) & (sizes > 0.0))
+    cells = np.floor((points[there] - points.min(axis=0, initial=np.inf)) / step + ROUNDING)
+    _, first = np.unique(cells, axis=0, return_index=True)
+    if len(first) > MOST_ARROWS:
+        raise InputError(f"arrows of {name}: {len(first)} of them, expected {MOST_ARROWS} or fewer: larger 'apart'")
+    some = there[np.sort(first)]
+    ways = vectors[some] * (long / float(sizes[some].max())) if len(some) else vectors[some]
+    items, labels = [], []
+    for number, (start, way) in enumerate(zip(points[some], ways, strict=True), start=1):
+        line = thin_line(f"{item.name} {name} {number}", Line.through(start, start + way), f"{item.name} {name}")
+        items.append(line)
+        labels.append(Label("", OnCurve(line.name), line.name, mark="arrow"))
+    return Scene(tuple(items), labels=tuple(labels))
+
+
 def axes(
     length: float | Sequence[float] = 1.0,
     *,
     origin: ArrayLike = (0.0, 0.0, 0.0),
     names: Sequence[str] = ("x", "y", "z"),
     ticks: float | None = None,
-    size_mm: float = DEFAULT_SIZE_MM,
+    size_mm: float | str = DEFAULT_SIZE_MM,
 ) -> Scene:
     """Three coordinate axes with their names, and numbers at ticks.
 
@@ -102,7 +172,7 @@ def axes(
         At their tips.
     ticks : float, optional
         The step between ticks; without one there are none.
-    size_mm : float
+    size_mm : float or str
         Of the names; numbers have two thirds of it.
 
     Returns
@@ -137,7 +207,9 @@ def axes(
         for at in (steps * (ticks or 0.0)).tolist():
             if at < 0.95 * one:
                 place = OnCurve(item.name, at / one)
-                labels.append(Label(f"{at:g}", place, f"{item.name} {at:g}", size_mm * 2.0 / 3.0, mark="tick"))
+                labels.append(
+                    Label(f"{at:g}", place, f"{item.name} {at:g}", capital_height(size_mm) * 2.0 / 3.0, mark="tick")
+                )
     return Scene(tuple(items), labels=tuple(labels))
 
 
@@ -193,7 +265,7 @@ def dimension(
     offset: ArrayLike,
     text: str | None = None,
     *,
-    size_mm: float = DEFAULT_SIZE_MM,
+    size_mm: float | str = DEFAULT_SIZE_MM,
     gap: float | None = None,
     beyond: float | None = None,
 ) -> Scene:
@@ -208,7 +280,7 @@ def dimension(
     text : str, optional
         What it says, with <> for the measure and <0.1> for other lengths, as in "<> H7" or "4x <> ±<0.1>": the distance
         of the points where nothing is given.
-    size_mm : float
+    size_mm : float or str
         Of the letters.
     gap, beyond : float, optional
         How far from the points extension lines begin, and how far beyond the dimension line they end, in world units;
@@ -263,7 +335,7 @@ def angle(
     radius: float,
     text: str | None = None,
     *,
-    size_mm: float = DEFAULT_SIZE_MM,
+    size_mm: float | str = DEFAULT_SIZE_MM,
 ) -> Scene:
     """The arc of an angle, with arrowheads and its measure.
 
@@ -277,7 +349,7 @@ def angle(
         Of the arc, in world units.
     text : str, optional
         What it says, with <> for the angle in degrees and its sign: that alone where nothing is given.
-    size_mm : float
+    size_mm : float or str
         Of the letters.
 
     Returns
@@ -313,7 +385,9 @@ def angle(
     return Scene((item,), labels=(*_heads(item.name, size_mm), label))
 
 
-def radius(centre: ArrayLike, point: ArrayLike, text: str | None = None, *, size_mm: float = DEFAULT_SIZE_MM) -> Scene:
+def radius(
+    centre: ArrayLike, point: ArrayLike, text: str | None = None, *, size_mm: float | str = DEFAULT_SIZE_MM
+) -> Scene:
     """The dimension of a radius: a line from the centre to a point of the circle, with an arrowhead there.
 
     Parameters
@@ -322,7 +396,7 @@ def radius(centre: ArrayLike, point: ArrayLike, text: str | None = None, *, size
         In the world.
     text : str, optional
         What it says, with <> for R and the radius: these alone where nothing is given.
-    size_mm : float
+    size_mm : float or str
         Of the letters.
 
     Returns
@@ -349,7 +423,7 @@ def radius(centre: ArrayLike, point: ArrayLike, text: str | None = None, *, size
 
 
 def diameter(
-    centre: ArrayLike, point: ArrayLike, text: str | None = None, *, size_mm: float = DEFAULT_SIZE_MM
+    centre: ArrayLike, point: ArrayLike, text: str | None = None, *, size_mm: float | str = DEFAULT_SIZE_MM
 ) -> Scene:
     """The dimension of a diameter: a line across a circle through its centre, with arrowheads.
 
@@ -361,7 +435,7 @@ def diameter(
         One of its ends, on the circle.
     text : str, optional
         What it says, with <> for ø and the diameter, as in "<> H7": these alone where nothing is given.
-    size_mm : float
+    size_mm : float or str
         Of the letters.
 
     Returns
@@ -386,7 +460,7 @@ def diameter(
     return Scene((item,), labels=_measured(item.name, said, measured, size_mm))
 
 
-def leader(point: ArrayLike, elbow: ArrayLike, text: str, *, size_mm: float = DEFAULT_SIZE_MM) -> Scene:
+def leader(point: ArrayLike, elbow: ArrayLike, text: str, *, size_mm: float | str = DEFAULT_SIZE_MM) -> Scene:
     """A line from a text to what it is about, with an arrowhead there.
 
     Parameters
@@ -397,7 +471,7 @@ def leader(point: ArrayLike, elbow: ArrayLike, text: str, *, size_mm: float = DE
         Where the text is.
     text : str
         What it says.
-    size_mm : float
+    size_mm : float or str
         Of the letters.
 
     Returns
@@ -573,7 +647,7 @@ class _Row:
         return (*found, Line.through(*ends))
 
     def dimension(
-        self, one: int, other: int, level: float, size_mm: float, gap: float | None, beyond: float | None
+        self, one: int, other: int, level: float, size_mm: float | str, gap: float | None, beyond: float | None
     ) -> Scene:
         """The dimension between two of the points, so far beyond that of the row."""
         first, second, line = self.lines(one, other, level, gap, beyond)
@@ -589,7 +663,7 @@ def chain_dimension(
     points: ArrayLike,
     offset: ArrayLike,
     *,
-    size_mm: float = DEFAULT_SIZE_MM,
+    size_mm: float | str = DEFAULT_SIZE_MM,
     gap: float | None = None,
     beyond: float | None = None,
 ) -> Scene:
@@ -601,7 +675,7 @@ def chain_dimension(
         In the world, two or more, in their order along the line.
     offset : (3,) array_like of float
         From the first point to the dimension line, which runs across it, from the first to the last point.
-    size_mm : float
+    size_mm : float or str
         Of the letters.
     gap, beyond : float, optional
         See dimension.
@@ -633,7 +707,7 @@ def baseline_dimension(
     offset: ArrayLike,
     *,
     step: float | None = None,
-    size_mm: float = DEFAULT_SIZE_MM,
+    size_mm: float | str = DEFAULT_SIZE_MM,
     gap: float | None = None,
     beyond: float | None = None,
 ) -> Scene:
@@ -678,7 +752,7 @@ def ordinate_dimension(
     offset: ArrayLike,
     *,
     apart: float = 0.0,
-    size_mm: float = DEFAULT_SIZE_MM,
+    size_mm: float | str = DEFAULT_SIZE_MM,
     gap: float | None = None,
     beyond: float | None = None,
 ) -> Scene:
@@ -766,7 +840,12 @@ def spread(places: Floats, apart: float) -> Floats:
 
 
 def chamfer(
-    start: ArrayLike, end: ArrayLike, elbow: ArrayLike, text: str | None = None, *, size_mm: float = DEFAULT_SIZE_MM
+    start: ArrayLike,
+    end: ArrayLike,
+    elbow: ArrayLike,
+    text: str | None = None,
+    *,
+    size_mm: float | str = DEFAULT_SIZE_MM,
 ) -> Scene:
     """The dimension of a chamfer: a leader to the middle of its edge, with its width and angle.
 
@@ -778,7 +857,7 @@ def chamfer(
         Where the text is.
     text : str, optional
         What it says, with <> for the width: the width and the angle where nothing is given.
-    size_mm : float
+    size_mm : float or str
         Of the letters.
 
     Returns
@@ -887,7 +966,7 @@ def _thread(what: str, start: ArrayLike, end: ArrayLike, radius: float) -> Scene
     return together([Scene((item,)) for item in items])
 
 
-def _measured(name: str, said: str, measured: str, size_mm: float) -> tuple[Label, ...]:
+def _measured(name: str, said: str, measured: str, size_mm: float | str) -> tuple[Label, ...]:
     """Arrowheads at both ends of a curve, and a text along it."""
     return (*_heads(name, size_mm), Label(said, Along(name), name, size_mm, "above", measured=measured))
 
@@ -920,7 +999,7 @@ def measured_label(label: Label, items: Mapping[str, Item], measures: Measures) 
     return replace(label, text=_written(label.measured, measures, measure))
 
 
-def _heads(name: str, size_mm: float) -> tuple[Label, ...]:
+def _heads(name: str, size_mm: float | str) -> tuple[Label, ...]:
     """Arrowheads at both ends of a curve."""
     ends = enumerate((0.0, 1.0))
     return tuple(Label("", OnCurve(name, part), f"{name} end {k}", size_mm, mark="arrow") for k, part in ends)

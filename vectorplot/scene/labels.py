@@ -7,6 +7,7 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from decimal import ROUND_HALF_UP, Decimal
+from numbers import Real
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -14,7 +15,7 @@ from numpy.typing import ArrayLike
 from vectorplot.errors import InputError
 from vectorplot.geometry.algebra import determinant, matmul
 from vectorplot.geometry.elementary import cbrt
-from vectorplot.scene.page import MM_PER_POINT
+from vectorplot.scene.page import MM_PER, MM_PER_POINT, LatexLength
 from vectorplot.words import check_word
 
 TYPE_SIZE = 0.7
@@ -22,6 +23,15 @@ TYPE_SIZE = 0.7
 
 DEFAULT_SIZE_MM = 3.5
 """The height of capitals where nothing is said."""
+
+LATEX_SIZES = dict(
+    zip(
+        "tiny scriptsize footnotesize small normalsize large Large LARGE huge Huge".split(),
+        (5.0, 7.0, 8.0, 9.0, 10.0, 12.0, 14.4, 17.28, 20.74, 24.88),
+        strict=True,
+    )
+)
+"""LaTeX's names of sizes, and the points that they have in documents of ten points."""
 
 PLACES = (
     *("auto", "centre", "above_right", "right", "above", "above_left", "left", "below_right", "below"),
@@ -171,8 +181,9 @@ class Label:
         point of the page.
     name : str
         What messages call it; its text where none is given.
-    size_mm : float
-        The height of capitals.
+    size_mm : float or str
+        The height of capitals; a text is a size with its unit: "10pt" or "10bp", a size of type, of which capitals are
+        0.7 high, or a word of LaTeX such as r"\\small", which is of the document that the picture is set in.
     place : str
         Where it stands beside that point: right, above_right, above, above_left, left, below_left, below, below_right,
         or centre, on it; auto: where the fewest lines are, with a leader if that is some way off. Along a curve above,
@@ -204,7 +215,7 @@ class Label:
     text: str
     at: tuple[float, float, float] | AtVertex | OnCurve | Along | OnPage | BesidePoint
     name: str = ""
-    size_mm: float = DEFAULT_SIZE_MM
+    size_mm: float | str = DEFAULT_SIZE_MM
     place: str = "auto"
     hidden: str | None = None
     mark: str = "none"
@@ -216,8 +227,10 @@ class Label:
         if not self.name:
             object.__setattr__(self, "name", self.text)
         owner = f"label {self.name}: "
-        if not (isinstance(self.size_mm, (int, float)) and 0.0 < self.size_mm < math.inf):
-            raise InputError(f"{owner}a size of {self.size_mm!r} mm: expected a number that is finite and positive")
+        try:
+            object.__setattr__(self, "size_mm", capital_height(self.size_mm))
+        except InputError as error:
+            raise InputError(owner + error.cause) from None
         check_word(f"{owner}place", self.place, PLACES)
         check_word(f"{owner}mark", self.mark, MARKS)
         if self.hidden is not None:
@@ -233,6 +246,11 @@ class Label:
         point = (self.at.x_mm, self.at.y_mm) if isinstance(self.at, OnPage) else self.at
         if len(point) != (2 if isinstance(self.at, OnPage) else 3) or not all(map(math.isfinite, point)):
             raise InputError(f"{owner}expected finite coordinates of a point, got {point}")
+
+    @property
+    def capitals_mm(self) -> float:
+        """The height of capitals, a number also where it was given as a text."""
+        return capital_height(self.size_mm)
 
     def transformed(self, matrix: ArrayLike) -> Label:
         """The label where a matrix takes the point that it names.
@@ -407,18 +425,35 @@ def renamed(label: Label, names: Mapping[str, str]) -> Label:
     return label
 
 
-def capital_height(size: str) -> float:
-    """The height of capitals in mm that a size means: in mm, such as 3.5 or 3.5mm; or the size of type in points, such
-    as 10pt, of which capitals are 0.7 high.
+_SIZE = re.compile(r"([0-9.]+(?:e[-+]?[0-9]+)?)\s*(mm|pt|bp|)", re.IGNORECASE)
 
-    Errors: InputError for what is no size, or not positive.
+
+def capital_height(size: float | str) -> float:
+    r"""The height of capitals in mm that a size means: a number of mm, such as 3.5 or "3.5mm"; a size of type, such as
+    "10pt" or "10bp", of which capitals are 0.7 high; or a word of LaTeX such as \small, which is a LatexLength.
+
+    Errors: InputError for what is no size, or not positive and finite.
     """
-    text = size.strip()
-    unit = TYPE_SIZE * MM_PER_POINT if text.endswith("pt") else 1.0
-    try:
-        height = unit * float(text.removesuffix("pt").removesuffix("mm"))
-    except ValueError:
-        raise InputError(f"a size of {size!r}: expected a number of mm, or of points such as 10pt") from None
+    if isinstance(size, str):
+        word = size.strip()
+        if word[1:] in LATEX_SIZES and word.startswith("\\"):
+            return LatexLength(TYPE_SIZE * LATEX_SIZES[word[1:]] * MM_PER_POINT, word)
+        found = _SIZE.fullmatch(word)
+        try:
+            height = float(found[1]) if found else math.nan
+        except ValueError:
+            height = math.nan
+        unit = found[2].lower() if found else ""
+        height *= TYPE_SIZE * MM_PER[unit] if unit in ("pt", "bp") else 1.0
+    elif isinstance(size, Real) and not isinstance(size, bool):
+        height = size if isinstance(size, LatexLength) else float(size)
+    else:
+        height = math.nan
     if not 0.0 < height < math.inf:
-        raise InputError(f"a size of {size!r}: expected a positive, finite length")
+        raise InputError(f"a size of {size!r}: expected a positive number of mm, or of points as in '10pt'")
     return height
+
+
+def times(size_mm: float, factor: float) -> float:
+    """A size on a page with other units; what LaTeX knows by a name keeps it where the units are the same."""
+    return size_mm if factor == 1.0 else factor * size_mm

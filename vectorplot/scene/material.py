@@ -27,7 +27,8 @@ class Material:
     Parameters
     ----------
     word : str
-        normal, metallic, shiny (or reflecting), mat (or matte), wood, plastic, transparent or mirror.
+        normal, metallic, shiny (or reflecting), mat (or matte), wood, plastic, transparent, mirror, or unlit, which has
+        its colour whatever the light.
     opacity : float, optional
         0 (clear) to 1; that of what is transparent a half where none is given, else 1.
     refraction : float
@@ -111,6 +112,11 @@ class Material:
     def is_mirror(self) -> bool:
         """Whether one sees other things in it."""
         return self.word == "mirror"
+
+    @property
+    def is_unlit(self) -> bool:
+        """Whether it has its colour whatever the light."""
+        return self.word == "unlit"
 
     @property
     def is_clear(self) -> bool:

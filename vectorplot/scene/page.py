@@ -117,22 +117,55 @@ SHEETS = {
 FIT = "fit"
 """The word for a page as large as its picture."""
 
+SCALE = "scale"
+"""The word before the scale of a page as large as its picture."""
+
 MM_PER_INCH = 25.4
 """By definition."""
 
-MM_PER_POINT = MM_PER_INCH / 72.0
-"""Of big points, in which type and PostScript are measured."""
+MM_PER_POINT = MM_PER_INCH / 72.27
+"""Of points, as TeX and printers have them."""
 
-MM_PER = {"mm": 1.0, "pt": MM_PER_POINT, "cm": 10.0, "in": MM_PER_INCH}
-"""The units that lengths on paper may have; mm where there is none."""
+MM_PER = {"mm": 1.0, "pt": MM_PER_POINT, "bp": MM_PER_INCH / 72.0, "cm": 10.0, "in": MM_PER_INCH}
+"""The units that lengths on paper may have; mm where there is none. bp: the big points of PostScript, PDF and CSS."""
 
 LENGTH = re.compile(r"\s*([0-9.]+(?:e[-+]?[0-9]+)?)\s*([a-z]*)\s*", re.IGNORECASE)
 """A number, and perhaps a unit."""
 
 
+class LatexLength(float):
+    """A length that LaTeX knows by a name, such as 0.8\\textwidth or \\small: in mm where nobody else knows it."""
+
+    latex: str
+
+    def __new__(cls, mm: float, latex: str) -> LatexLength:
+        """The length of so many mm with LaTeX's words for it."""
+        made = super().__new__(cls, mm)
+        made.latex = latex
+        return made
+
+    def __getnewargs__(self) -> tuple[float, str]:  # type: ignore[override]
+        """What copies are made of."""
+        return float(self), self.latex
+
+
+def in_latex(length: float) -> str:
+    """LaTeX's words for a length; none for mere numbers."""
+    return length.latex if isinstance(length, LatexLength) else ""
+
+
+COLUMN_POINTS = {"linewidth": 345.0, "textwidth": 345.0, "hsize": 345.0, "columnwidth": 246.0}
+"""LaTeX's widths in points, as long as nobody knows the document: those of article, and of a column of two."""
+
+_OF_LATEX = re.compile(r"\s*([0-9]*\.?[0-9]*)\s*\\(" + "|".join(COLUMN_POINTS) + r")\s*")
+
+
 def length_mm(text: str) -> float:
-    """The length on paper, in mm, of a number and its unit, such as 8cm; InputError for what is none, for zero, and for
-    what is not finite."""
+    """The length on paper, in mm, of a number and its unit, such as 8cm, or of a width of LaTeX, such as
+    0.8\\linewidth: then a LatexLength. Errors: InputError for what is none, for zero, and for what is not finite."""
+    relative = _OF_LATEX.fullmatch(text)
+    if relative and (part := float(relative[1]) if relative[1].strip(".") else 1.0) > 0.0:
+        return LatexLength(part * COLUMN_POINTS[relative[2]] * MM_PER_POINT, text.replace(" ", ""))
     found = LENGTH.fullmatch(text)
     try:
         size = float(found[1]) * MM_PER[found[2].lower() or "mm"] if found else math.nan
@@ -159,3 +192,18 @@ def sheet_size(text: str) -> tuple[float, float]:
     if not (0.0 < width < math.inf and 0.0 < height < math.inf):
         raise InputError(f"page {text!r}: expected WIDTHxHEIGHT in mm or one of {', '.join(SHEETS)}")
     return width, height
+
+
+def scale_ratio(text: str) -> tuple[float, float]:
+    """Lengths on paper, in mm, and in the world of a scale such as 1:2, 5:1, or 2.5: mm for a unit.
+
+    Errors: InputError for another text, and numbers that are not finite and positive.
+    """
+    sides = re.fullmatch(r"\s*([^:]+)(?::([^:]+))?", str(text))
+    try:
+        paper, world = (float(side) for side in (sides[1], sides[2] or "1")) if sides else (math.nan, math.nan)
+    except ValueError:
+        paper = world = math.nan
+    if not (0.0 < paper < math.inf and 0.0 < world < math.inf and 0.0 < paper / world < math.inf):
+        raise InputError(f"scale {text!r}: expected two numbers such as 1:2")
+    return paper, world

@@ -16,7 +16,7 @@ from vectorplot.geometry.camera import VIEWS, Camera, Point
 from vectorplot.geometry.projections import Projection
 from vectorplot.geometry.rotations import upright_turn
 from vectorplot.geometry.vectors import normalize
-from vectorplot.scene.page import FIT, Page, length_mm, sheet_size
+from vectorplot.scene.page import FIT, SCALE, Page, length_mm, scale_ratio, sheet_size
 from vectorplot.scene.scene import Scene
 from vectorplot.tolerances import FLAT_PICTURE
 from vectorplot.words import unknown
@@ -29,13 +29,15 @@ class Placement:
     """Where a picture is on the page.
 
     projection: that which the picture has: it says what the image is; page: the sheet of paper; page_from_image: (3, 3)
-    from homogeneous points (x, y, 1) of the image to mm, y upwards; whole: all of the scene is on the page.
+    from homogeneous points (x, y, 1) of the image to mm, y upwards; whole: all of the scene is on the page; filled
+    (2,2): the lowest and the highest corner, in the image, of what fills the page, where something does.
     """
 
     projection: Projection
     page: Page
     page_from_image: Floats
     whole: bool
+    filled: Floats | None = None
 
     @property
     def scale(self) -> float:
@@ -83,12 +85,19 @@ def fitted_picture(projection: Projection, page: Page, image: Floats) -> Placeme
     """
     if not image.shape[1]:
         return Placement(projection, page, fitted(page, np.zeros(2), np.zeros(2)), whole=True)
+    if isinstance(page, PageAtScale) and projection.eye is not None:
+        raise InputError("a page at a scale is for parallel projections, such as a main view")
     low, high = image.min(axis=1), image.max(axis=1)
     # Where all sight rays are one the image is a point, and rounding must not fill the page.
     high = high if (high - low).max() > projection.tolerance else low
-    inside = fitting_scale(page, high - low) * (high - low)
+    scale = page_scale(page, projection)
+    scale = fitting_scale(page, high - low) if scale is None else scale
+    inside = scale * (high - low)
     sheet = page.around(float(inside[0]), float(inside[1]))
-    return Placement(projection, sheet, fitted(sheet, low, high), whole=True)
+    if not isinstance(page, PageAtScale):
+        return Placement(projection, sheet, fitted(sheet, low, high), whole=True, filled=np.stack([low, high]))
+    matrix = _in_the_middle(sheet, scale, scale * low, scale * high)
+    return Placement(projection, sheet, matrix, whole=True, filled=np.stack([low, high]))
 
 
 def fitted_with_room(projection: Projection, page: Page, image: Floats, low_mm: Floats, high_mm: Floats) -> Placement:
@@ -115,9 +124,13 @@ def fitted_with_room(projection: Projection, page: Page, image: Floats, low_mm: 
             return plain
     low, high = _reach(scale, image, *beside)
     sheet = page.around(*(high - low).tolist())
+    return Placement(projection, sheet, _in_the_middle(sheet, scale, low, high), whole=True)
+
+
+def _in_the_middle(sheet: Page, scale: float, low: Floats, high: Floats) -> Floats:
+    """(3,3) matrix from image to page: scaled, the box from low to high (2,) in mm goes to the middle."""
     offset = 0.5 * (np.array([sheet.width_mm, sheet.height_mm]) - low - high)
-    matrix = np.array([[scale, 0.0, offset[0]], [0.0, scale, offset[1]], [0.0, 0.0, 1.0]])
-    return Placement(projection, sheet, matrix, whole=True)
+    return np.array([[scale, 0.0, offset[0]], [0.0, scale, offset[1]], [0.0, 0.0, 1.0]])
 
 
 def _reach(scale: float, image: Floats, low_mm: Floats, high_mm: Floats) -> tuple[Floats, Floats]:
@@ -159,6 +172,8 @@ def mm_per_image(projection: Projection, points: Floats, page: Page, fit: bool) 
     """About how many mm a unit of the image will be on the page; points (3,n): of what is seen."""
     if not fit:
         return float(page.height_mm / projection.picture_height)
+    if (scale := page_scale(page, projection)) is not None:
+        return scale
     if not np.isfinite(points).all():
         points = points.compress(np.isfinite(points).all(axis=0), axis=1)
     every = points.shape[1]
@@ -242,6 +257,36 @@ class PageOfWidth(Page):
         return Page(self.width_mm, max(height_mm, LEAST_MM) + 2.0 * self.margin_mm, self.margin_mm)
 
 
+@dataclass(frozen=True)
+class PageAtScale(Page):
+    """A sheet cut to its picture, which has so many mm for a unit of the world.
+
+    Its own size is for empty pictures.
+    """
+
+    mm_per_unit: float = 1.0
+
+    @property
+    def room(self) -> tuple[float, float]:
+        """Width and height in mm inside the margin: as large as one likes."""
+        return math.inf, math.inf
+
+    def around(self, width_mm: float, height_mm: float) -> Page:
+        """The sheet cut to a picture and its margin."""
+        return fitted_page(self).around(width_mm, height_mm)
+
+
+def page_scale(page: Page, projection: Projection) -> float | None:
+    """How many mm a unit of the image is on a page that has a scale; None on others."""
+    return page.mm_per_unit * projection.scale if isinstance(page, PageAtScale) else None
+
+
+def page_at_scale(sheet: Page, text: str) -> PageAtScale:
+    """A sheet that is to be cut to its picture at a scale, see scale_ratio, with the margin of another one."""
+    paper, world = scale_ratio(text)
+    return PageAtScale(sheet.width_mm, sheet.height_mm, sheet.margin_mm, paper / world)
+
+
 def fitted_page(sheet: Page) -> FittedPage:
     """A sheet that is to be cut to the size of its picture."""
     return FittedPage(sheet.width_mm, sheet.height_mm, sheet.margin_mm)
@@ -305,9 +350,9 @@ def page_of(page: Page | str | None, scene: Scene, width: float | str | None = N
     """
     sheet = _sheet_of(page, scene)
     if width is not None:
-        sheet = page_of_width(sheet, length_mm(width) if isinstance(width, str) else float(width))
-    if not fit and isinstance(sheet, FittedPage | PageOfWidth):
-        raise InputError("a page as large as its picture, or of a width, does not go with no-fit")
+        sheet = page_of_width(sheet, length_mm(width) if isinstance(width, str) else width)
+    if not fit and isinstance(sheet, FittedPage | PageOfWidth | PageAtScale):
+        raise InputError("a page as large as its picture, of a width or at a scale does not go with no-fit")
     return sheet
 
 
@@ -319,6 +364,8 @@ def _sheet_of(page: Page | str | None, scene: Scene) -> Page:
     if not isinstance(page, str):
         raise TypeError(f"a page is a Page or a text such as 'A4', '200x150' or 'fit', not {type(page).__name__}")
     sheet, _, way = page.strip().partition(" ")
+    if sheet.lower() == SCALE:
+        return page_at_scale(scene.page or Page(), way)
     if (way := way.strip().lower()) not in ("", "landscape", "portrait"):
         raise InputError(f"page {page!r}: expected a sheet, and perhaps 'landscape' or 'portrait'")
     fitted = sheet.lower() == FIT

@@ -14,11 +14,16 @@ from vectorplot.errors import InputError
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.mesh_cuts import nothing_beside
 from vectorplot.geometry.triangles import PlacedTriangles
+from vectorplot.scene.labels import DEFAULT_SIZE_MM, capital_height
+from vectorplot.words import check_colour, unknown
 
 # What a picture shows besides its scene to be read as a chart: colours that are numbers, a box with ticks.
 
 MOST_STEPS = 100
 """Of colours."""
+
+BAR_LETTERS_MM = 2.5
+"""The height of capitals at bars where nothing is said."""
 
 
 @dataclass(frozen=True)
@@ -35,12 +40,26 @@ class Colouring:
     steps : int
         How many colours, 2 to 100.
     label : str, optional
-        Above the bar: what by says where None.
+        At the bar: what by says where None. What stands between dollars is a formula.
+    low, high : float, optional
+        The numbers of the first and the last colour: the least and the largest that there are where None. What is
+        beyond has the nearest of the colours.
+    at : tuple of float
+        Classes in place of steps: the limits between them, ascending, with the outer ones; each class has a colour.
+    logarithmic : bool
+        Equal ratios of numbers, which are positive then, have equal steps. What is not positive is below all.
+    under, over : str, optional
+        Colours of what is below low, or the first limit, and above high, or the last one.
+    is_lit : bool
+        Colours are shaded by the lights; otherwise they are those of the bar everywhere.
+    size_mm : float or str
+        Height of the capitals of the numbers at the bar, or their size of type as in "8pt"; the bar grows with them.
 
     Raises
     ------
     InputError
-        For counts out of range.
+        For counts out of range, limits that do not ascend, colours that are none, and ends that are not positive
+        on a logarithmic scale.
 
     Examples
     --------
@@ -56,10 +75,42 @@ class Colouring:
     colour_map: str = "viridis"
     steps: int = 24
     label: str | None = None
+    low: float | None = None
+    high: float | None = None
+    at: tuple[float, ...] = ()
+    logarithmic: bool = False
+    under: str | None = None
+    over: str | None = None
+    is_lit: bool = True
+    size_mm: float | str = BAR_LETTERS_MM
 
     def __post_init__(self) -> None:
         if not (2 <= self.steps <= MOST_STEPS and float(self.steps).is_integer()):
             raise InputError(f"a colouring of {self.steps} steps: expected 2 to {MOST_STEPS}")
+        object.__setattr__(self, "at", tuple(float(limit) for limit in self.at))
+        if self.at and not (2 <= len(self.at) <= MOST_STEPS + 1 and all(np.diff(self.at) > 0.0)):
+            raise InputError(f"classes of a colouring: expected 2 to {MOST_STEPS + 1} ascending limits, got {self.at}")
+        if self.at and not (self.low is None and self.high is None):
+            raise InputError("a colouring in classes has its ends in their limits")
+        ends = [*self.at, *(end for end in (self.low, self.high) if end is not None)]
+        if not all(np.isfinite(ends)):
+            raise InputError("the ends of a colouring: expected finite numbers")
+        if self.low is not None and self.high is not None and not self.low < self.high:
+            raise InputError(f"a colouring from {self.low:g} to {self.high:g}: the ends do not ascend")
+        if self.logarithmic and any(end <= 0.0 for end in ends):
+            raise InputError("a logarithmic colouring begins above 0")
+        for colour in (self.under, self.over):
+            if colour is not None:
+                check_colour(colour, "colouring: ")
+        try:
+            object.__setattr__(self, "size_mm", capital_height(self.size_mm))
+        except InputError as error:
+            raise InputError(f"colouring: {error.cause}") from None
+
+    @property
+    def capitals_mm(self) -> float:
+        """The height of the capitals of the numbers at the bar."""
+        return capital_height(self.size_mm)
 
     @property
     def title(self) -> str:
@@ -70,6 +121,52 @@ class Colouring:
 
 
 @dataclass(frozen=True)
+class ScaleBar:
+    """A bar below the picture that is as long as a length in it; in parallel projections.
+
+    Parameters
+    ----------
+    unit : str
+        What stands behind the number.
+    length : float, optional
+        In units of the world: a round one, about a quarter of the picture, where None.
+    size_mm : float or str
+        Height of the capitals, or their size of type as in "8pt".
+
+    Raises
+    ------
+    InputError
+        For a length and a size that are not finite and positive.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot.geometry import box
+    >>> from vectorplot.scene import ScaleBar
+    >>> block = vp.Scene((vp.Item("block", box((30, 20, 10))),), scale_bar=ScaleBar("nm"))
+    >>> [layer.name for layer in vp.draw(block, "front").layers][-1]
+    'scale bar'
+    """
+
+    unit: str = ""
+    length: float | None = None
+    size_mm: float | str = BAR_LETTERS_MM
+
+    def __post_init__(self) -> None:
+        if self.length is not None and not 0.0 < self.length < float("inf"):
+            raise InputError(f"a scale bar of {self.length:g}: expected a length that is finite and positive")
+        try:
+            object.__setattr__(self, "size_mm", capital_height(self.size_mm))
+        except InputError as error:
+            raise InputError(f"scale bar: {error.cause}") from None
+
+    @property
+    def capitals_mm(self) -> float:
+        """The height of the capitals."""
+        return capital_height(self.size_mm)
+
+
+@dataclass(frozen=True)
 class BoxAxes:
     """A box around the scene: grids on its three far sides, numbers and names along its outer edges.
 
@@ -77,8 +174,8 @@ class BoxAxes:
     ----------
     names : three str
         Of the axes.
-    size_mm : float
-        Height of the capitals of the names; numbers have three quarters of it.
+    size_mm : float or str
+        Height of the capitals of the names, or their size of type as in "10pt"; numbers have three quarters of it.
 
     Raises
     ------
@@ -96,13 +193,20 @@ class BoxAxes:
     """
 
     names: tuple[str, str, str] = ("x", "y", "z")
-    size_mm: float = 3.5
+    size_mm: float | str = DEFAULT_SIZE_MM
 
     def __post_init__(self) -> None:
         if len(self.names) != 3 or not all(isinstance(name, str) for name in self.names):
             raise InputError("box: expected three names")
-        if not 0.0 < self.size_mm < float("inf"):
-            raise InputError(f"box: a size of {self.size_mm:g} mm: expected a number that is finite and positive")
+        try:
+            object.__setattr__(self, "size_mm", capital_height(self.size_mm))
+        except InputError as error:
+            raise InputError(f"box: {error.cause}") from None
+
+    @property
+    def capitals_mm(self) -> float:
+        """The height of the capitals of the names."""
+        return capital_height(self.size_mm)
 
 
 # Numbers that a file has at the vertices and on the faces of a mesh.
@@ -181,6 +285,17 @@ class Fields:
             # A corner without a number that weighs nothing does not matter.
             result[left[place]] = np.where(weights > 0.0, weights * values[corners], 0.0).sum(axis=1)
         return result
+
+    def vectors(self, name: str) -> Callable[[Floats], Floats]:
+        """What gives vectors (n,3) at points (n,3) of the mesh: NAME.x, NAME.y, NAME.z, NaN where there are none.
+
+        Errors: InputError for a name that has not these parts.
+        """
+        parts = [f"{name}.{axis}" for axis in AXES]
+        if not all(part in self.names for part in parts):
+            known = [one.removesuffix(".x") for one in self.names if one.endswith(".x")]
+            raise unknown("field of vectors", name, known)
+        return lambda points: np.stack([self.at(part, points) for part in parts], axis=1)
 
     def transformed(self, matrix: ArrayLike) -> Fields:
         """The fields on the mesh under a 4x4 matrix acting on columns: the same numbers."""

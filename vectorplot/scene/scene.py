@@ -26,7 +26,7 @@ from vectorplot.scene.labels import Label, Measures, renamed
 from vectorplot.scene.light import Exposure, Light, check_exposure
 from vectorplot.scene.page import Page
 from vectorplot.scene.pens import DepthCue, PenOverrides
-from vectorplot.scene.scales import BoxAxes, Colouring
+from vectorplot.scene.scales import BoxAxes, Colouring, ScaleBar
 from vectorplot.surfaces.capped_bodies import ball_of, bounds_of_balls, bounds_of_capped_quadrics, capped_quadric_of
 from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_implicit, is_parametrised
 from vectorplot.words import check_colour
@@ -74,6 +74,8 @@ class Scene(Movable["Scene"]):
     exaggeration : float
         What heights in it were multiplied with: those that pictures write, on level lines, beside boxes and colour
         bars, are divided by it. Scene files say nothing of it.
+    scale_bar : ScaleBar, optional
+        A bar below the picture that is as long as a length in it.
 
     Raises
     ------
@@ -109,6 +111,7 @@ class Scene(Movable["Scene"]):
     explosion: Explosion | None = None
     measures: Measures | None = None
     exaggeration: float = 1.0
+    scale_bar: ScaleBar | None = None
 
     def __post_init__(self) -> None:
         # The first one tells: a scene may have a million items, and is made anew by every stage.
@@ -243,6 +246,7 @@ def together(scenes: Sequence[Scene]) -> Scene:
         explosion=next((scene.explosion for scene in scenes if scene.explosion), None),
         measures=next((scene.measures for scene in scenes if scene.measures), None),
         exaggeration=next((scene.exaggeration for scene in scenes if scene.exaggeration != 1.0), 1.0),
+        scale_bar=next((scene.scale_bar for scene in scenes if scene.scale_bar), None),
     )
 
 

@@ -105,6 +105,77 @@ class FieldLines:
 
 
 @dataclass(frozen=True)
+class NamedVectors:
+    """The vectors of a field of the item that lines belong to, for VectorField: the parts NAME.x, NAME.y and NAME.z.
+
+    Parameters
+    ----------
+    name : str
+        Of the field.
+
+    Raises
+    ------
+    InputError
+        Where it is called: which item's they are is known where lines are drawn.
+
+    Examples
+    --------
+    >>> from vectorplot.features import VectorField
+    >>> from vectorplot.scene import FieldLines, NamedVectors
+    >>> FieldLines(VectorField(NamedVectors("velocity"))).field.function.name
+    'velocity'
+    """
+
+    name: str
+
+    def __call__(self, points: Floats) -> Floats:
+        """InputError: which item's they are is not known here."""
+        raise InputError(f"field lines: vectors of the field {self.name!r} are of meshes that have it")
+
+
+@dataclass(frozen=True)
+class FieldContours:
+    """Lines of a mesh along which a field of its item has one value; they are of the kind section.
+
+    Parameters
+    ----------
+    name : str
+        Of a field with numbers at the vertices.
+    values : int or tuple of float
+        About so many round values, or these.
+
+    Raises
+    ------
+    InputError
+        For no values or more than 10000, and values that are not finite.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import vectorplot as vp
+    >>> from vectorplot.scene import FieldContours, Fields
+    >>> square = vp.Mesh.from_polygons([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], [(0, 1, 2, 3)])
+    >>> heat = Fields(square, {"heat": np.array([0.0, 2.0, 2.0, 0.0])})
+    >>> lines = vp.SurfaceLines(contours=(FieldContours("heat", (1.0,)),))
+    >>> drawing = vp.draw(vp.Item("S", square, fields=heat, curves=lines), "top", lines="section")
+    >>> sum(len(layer.strokes[0]) for layer in drawing.layers)
+    1
+    """
+
+    name: str
+    values: int | tuple[float, ...] = 12
+
+    def __post_init__(self) -> None:
+        if isinstance(self.values, int):
+            if not 1 <= self.values <= MAX_LINES:
+                raise InputError(f"contours: {self.values} of them, expected 1 to {MAX_LINES}")
+            return
+        object.__setattr__(self, "values", _numbers("contours", self.values))
+        if not self.values:
+            raise InputError("contours: expected a value or more")
+
+
+@dataclass(frozen=True)
 class GeodesicLines:
     """Geodesics of a surface or a mesh, from given points in given directions.
 
@@ -641,6 +712,8 @@ class SurfaceLines:
     detail : float
         How much there is of suggestive contours, ridges, valleys and apparent ridges: of twice the detail lines may be
         half as clear and half as long.
+    contours : tuple of FieldContours
+        Lines of a polyhedron along which a field of its item has one value.
     smooth_contours : bool
         The polyhedron is taken for a smooth shape: its contour runs across faces, where the average normals at its
         vertices are at right angles to the view, instead of along edges; at creases it is as ever.
@@ -677,6 +750,7 @@ class SurfaceLines:
     integral: tuple[IntegralLines, ...] = ()
     terrain: tuple[TerrainLines, ...] = ()
     detail: float = 1.0
+    contours: tuple[FieldContours, ...] = ()
     smooth_contours: bool = False
 
     def __post_init__(self) -> None:
@@ -736,7 +810,7 @@ class SurfaceLines:
 
     def __bool__(self) -> bool:
         asked = (self.columns, self.rows, self.isophotes, self.sections, self.paths, self.integral, self.terrain)
-        return any(map(bool, asked))
+        return any(map(bool, (*asked, self.contours)))
 
 
 def linear_growth(matrix: Floats) -> float:

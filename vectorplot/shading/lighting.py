@@ -176,11 +176,15 @@ def lighting_of(
     Errors: InputError for a colour that is none.
     """
     finishes, finish = _numbered([finish_of(item.material) for item in items])
-    names, number = _numbered([item.colour for item in items])
-    palettes = np.array([palette(name, COLOUR_MAP) for name in names], dtype=np.uint8).reshape(-1, COLOUR_MAP, 3)
+    names, number = _numbered([(item.colour, item.material.is_unlit) for item in items])
+    palettes = np.array([palette(name, COLOUR_MAP) for name, _ in names], dtype=np.uint8).reshape(-1, COLOUR_MAP, 3)
+    unlit = np.array([unlit for _, unlit in names], dtype=np.bool_)
+    palettes[unlit] = palettes[unlit, -1:]
     reach = tuple(lamp_reach(view, light) for light in lights)
     receives = np.array([item.material.opacity >= 1.0 for item in items], dtype=np.bool_)
-    casters = tuple(ClearCasters(names.index(colour), opacity, dark) for colour, opacity, dark in clear)
+    casters = tuple(
+        ClearCasters([name for name, _ in names].index(colour), opacity, dark) for colour, opacity, dark in clear
+    )
     eye, depths = view_eye(view), depth_limits(view)
     return Lighting(lights, blocked, eye, reach, number, palettes, finish, tuple(finishes), depths, receives, casters)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import subprocess
 
 import numpy as np
@@ -10,8 +11,10 @@ from PIL import Image
 
 import vectorplot as vp
 from vectorplot.backends.cairo import drawing_pixels
+from vectorplot.backends.json import read_drawing
 from vectorplot.backends.tikz import tikz_bytes
 from vectorplot.errors import InputError
+from vectorplot.save import write_for_latex
 
 DOCUMENT = (
     "\\documentclass{article}\\usepackage[paperwidth=%gmm,paperheight=%gmm,margin=0mm]{geometry}\\usepackage{tikz}"
@@ -81,3 +84,60 @@ def test_an_empty_picture_has_its_size_and_a_page_that_is_too_large_is_refused(t
     assert seen.min() == 255 and abs(seen.shape[1] - 80 / 25.4 * 150) <= 1
     with pytest.raises(InputError, match="TeX takes at most 5000 mm"):
         tikz_bytes(vp.Drawing(6000.0, 60.0, ()))
+
+
+WIDTHS = (
+    "\\documentclass{article}\\usepackage{tikz}\\begin{document}\\parindent0pt"
+    "\\setbox0\\hbox{\\input{picture.tex}}\\setbox1\\hbox{\\small S}"
+    "\\newlength\\wanted\\setlength\\wanted{%s}\\typeout{WIDTHS \\the\\wd0 \\the\\wanted}"
+    "\\copy0\\input{picture.tex}\\end{document}"
+)
+
+
+def widths_in_latex(drawing, wanted, folder):
+    """The width of the box that LaTeX sets a drawing in, and a length that it knows, both in points; its log."""
+    (folder / "picture.tex").write_bytes(tikz_bytes(drawing))
+    (folder / "document.tex").write_text(WIDTHS % wanted, encoding="ascii")
+    latex = ["pdflatex", "-interaction=batchmode", "-halt-on-error", "document.tex"]
+    subprocess.run(latex, cwd=folder, check=True, capture_output=True, timeout=120)
+    log = (folder / "document.log").read_text(encoding="latin-1")
+    return [float(width) for width in re.search(r"WIDTHS ([0-9.]+)pt([0-9.]+)pt", log).groups()], log
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("width", "wanted"), [("115pt", "115pt"), (r"0.3\textwidth", r"0.3\textwidth")])
+def test_a_figure_takes_its_width_and_no_blank_more(width, wanted, tmp_path):
+    (found, right), log = widths_in_latex(vp.draw(SIGNED, width=width, text="real"), wanted, tmp_path)
+    assert found == pytest.approx(right, abs=2e-3) and "Overfull" not in log
+
+
+SIGNED = vp.Scene(
+    (vp.Item("A", vp.Mesh.from_triangles([(0, 0, 0), (2, 0, 0), (0, 0, 2)], [(0, 1, 2)])),),
+    labels=(vp.Label("P", (2, 0, 0), size_mm=r"\small"), vp.Label("Q", (0, 0, 2), size_mm="10pt")),
+    page=vp.Page(80.0, 60.0, 2.0),
+)
+
+
+def test_lengths_are_parts_of_a_width_of_latex_and_letters_are_not():
+    drawing = vp.draw(SIGNED, "front", width=r"0.8\linewidth", text="real")
+    text = tikz_bytes(drawing).decode("ascii")
+    assert drawing.width_mm == pytest.approx(0.8 * 345 * 25.4 / 72.27)
+    assert f"[x={{0.8\\linewidth/{drawing.width_mm:.10g}}},y={{0.8\\linewidth/{drawing.width_mm:.10g}}}," in text
+    assert "(0,0) rectangle (0.8\\linewidth," in text and text.endswith("\\end{tikzpicture}%\n")
+    assert "font=\\small]" in text and "font=\\fontsize{10}{12}\\selectfont]" in text
+    picture, over = write_for_latex(drawing, "pdf", "fig.pdf")
+    assert b"\\includegraphics[width=0.8\\linewidth]{" in over and b"x={0.8\\linewidth/" in over
+    assert b"/S /Transparency" not in picture and over.endswith(b"\\end{tikzpicture}%\n")
+    # As numbers they are what article has.
+    assert tikz_bytes(vp.draw(SIGNED, "front", width="276pt", text="real")).count(b"linewidth") == 0
+
+
+def test_words_of_latex_come_through_json_and_others_do_not(tmp_path):
+    file = tmp_path / "signed.json"
+    vp.draw(SIGNED, "front", text="real").save(file)
+    assert tikz_bytes(read_drawing(file)).count(b"font=\\small]") == 1
+    content = file.read_text()
+    assert '"latex": "\\\\small"' in content
+    file.write_text(content.replace('"latex": "\\\\small"', '"latex": "\\\\input{x}"'))
+    with pytest.raises(InputError, match="a size of"):
+        read_drawing(file)

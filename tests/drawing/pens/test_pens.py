@@ -76,10 +76,10 @@ def test_no_stroke_is_lost_or_doubled_by_pens_and_layers():
 
 
 def test_units_and_colours():
-    (rule,) = pen_rules("contour=1.44pt:white")
+    (rule,) = pen_rules("contour=1.44bp:white")
     assert (rule.width_mm, rule.colour) == (pytest.approx(0.508), "#ffffff")
     (rule,) = pen_rules(None, "HOUSE.hidden=6pt,0.1cm")
-    assert (rule.item, rule.kind, rule.dash_mm) == ("HOUSE", "hidden", (pytest.approx(6 * 25.4 / 72), 1.0))
+    assert (rule.item, rule.kind, rule.dash_mm) == ("HOUSE", "hidden", (pytest.approx(6 * 25.4 / 72.27), 1.0))
 
 
 @pytest.mark.parametrize("dash", [(3.0, 1.0), (1.0, 2.0)])

@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
+import json
+
 import numpy as np
 import pytest
 from support.paths import ROOT
 
 import vectorplot as vp
+from vectorplot.cli.main import run
 from vectorplot.curves import Circle
+from vectorplot.drawing.sheets import shared_scale
 from vectorplot.drawing.title_block import DrawingScale
+from vectorplot.errors import InputError
+from vectorplot.geometry import box
 
 RING = vp.draw(Circle(radius=2.0), "top", page=vp.Page(40, 40, 10))
 TRIANGLE = vp.Mesh.from_triangles([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])
@@ -82,3 +88,64 @@ def test_a_turntable_is_at_one_scale_from_all_around():
     for count in (0, 1001):
         with pytest.raises(vp.InputError):
             vp.turntable(ROOT / "data" / "box.scene", count)
+
+
+BOXES = [box((2.0, 3.0, high)) for high in (1.0, 4.0, 2.0)]
+
+
+def test_panels_stand_on_one_line_at_one_scale_under_their_letters():
+    parts = [vp.draw(one, "front", page="scale 5:1", text="real") for one in BOXES]
+    figure = vp.panels(parts, gap_mm=4.0, letters="(a)", size_mm="10pt", text="real")
+    assert figure.width_mm == pytest.approx(3 * (10.0 + 20.0) + 2 * 4.0)
+    points = points_of(figure)
+    for k, high in enumerate((1.0, 4.0, 2.0)):
+        left = k * 34.0
+        own = points[(points[:, 0] >= left) & (points[:, 0] <= left + 30.0)]
+        np.testing.assert_allclose(own.min(axis=0), (left + 10.0, 10.0), atol=1e-9)
+        np.testing.assert_allclose(own.max(axis=0), (left + 20.0, 10.0 + 5.0 * high), atol=1e-9)
+    (texts,) = figure.layers[-1].texts
+    assert texts.strings == ("(a)", "(b)", "(c)") and len(set(texts.points[:, 1])) == 1
+    assert (texts.points[:, 1] > 40.0).all() and (texts.points[:, 1] + texts.size_mm < figure.height_mm).all()
+    strokes = vp.panels(parts, gap_mm=4.0, letters="A")
+    assert [layer.name for layer in strokes.layers][-1] == "panels" and len(strokes.layers[-1].strokes[0]) >= 3
+    assert "panels" not in [layer.name for layer in vp.panels(parts, letters="").layers]
+
+
+@pytest.mark.parametrize(
+    ("given", "told"),
+    [({"letters": "1)"}, "with an a or A"), ({"gap_mm": -1.0}, "a gap of -1 mm"), ({"size_mm": "0pt"}, "a size of")],
+)
+def test_what_is_wrong_with_panels_is_told(given, told):
+    with pytest.raises(InputError, match=told):
+        vp.panels([FLAT], **given)
+    with pytest.raises(InputError, match="0 panels"):
+        vp.panels([])
+
+
+def test_a_shared_scale_gives_a_figure_its_width():
+    # Beside each picture stands something that does not grow: a margin.
+    first = [vp.draw(one, "front", page="scale 1") for one in BOXES]
+    second = [vp.draw(one, "front", page="scale 3") for one in BOXES]
+    scale = shared_scale(first, 150.0, 5.0, second)
+    parts = [vp.draw(one, "front", page=f"scale {scale!r}") for one in BOXES]
+    assert vp.panels(parts).width_mm == pytest.approx(150.0)
+    with pytest.raises(InputError, match="no room for 3 panels"):
+        shared_scale(first, 65.0, 5.0, second)
+    with pytest.raises(InputError, match="parallel projections"):
+        shared_scale([vp.draw(BOXES[0], vp.Camera((9, -9, 9)))], 100.0)
+
+
+@pytest.mark.slow
+def test_the_command_makes_a_figure_as_wide_as_its_page(tmp_path):
+    out = tmp_path / "figure.json"
+    words = [
+        "contact-sheet",
+        str(ROOT / "data/box.scene"),
+        str(ROOT / "data/table.scene"),
+        "--panels",
+        "--page",
+        "100x90",
+    ]
+    assert run([*words, "--with", "draw --view front --margin 1 --text real", "-o", str(out)]) == 0
+    assert json.loads(out.read_text())["page_mm"][0] == pytest.approx(80.0, abs=0.01)
+    assert run([*words, "--columns", "2", "-o", str(out)]) == 2

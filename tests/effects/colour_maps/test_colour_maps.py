@@ -11,16 +11,30 @@ import shapely
 
 import vectorplot as vp
 from vectorplot.drawing import typeset
-from vectorplot.effects.colour_maps import COLOUR_MAPS, axis_numbers, coloured, map_colours, scaled, with_box
+from vectorplot.effects.colour_maps import (
+    COLOUR_MAPS,
+    axis_numbers,
+    coloured,
+    logarithmic_numbers,
+    map_colours,
+    scaled,
+    with_box,
+)
 from vectorplot.errors import InputError
 from vectorplot.geometry import box as solid_box
 from vectorplot.geometry import ragged
 from vectorplot.io import parse_scene
 from vectorplot.io.scene_writer import write_scene
+from vectorplot.save import write
 from vectorplot.scene import BoxAxes, Colouring, terrain_scene
+from vectorplot.scene.labels import capital_height
+from vectorplot.scene.page import in_latex
 from vectorplot.surfaces import Sphere
 
 CUBE = vp.Scene((vp.Item("CUBE", solid_box((2.0, 2.0, 2.0))),))
+SQUARE = vp.Scene(
+    (vp.Item("S", vp.Mesh.from_polygons([(0, 0, 0), (10, 0, 0), (10, 10, 0), (0, 10, 0)], [(0, 1, 2, 3)])),)
+)
 VIEWS = [(9.0, -7.0, 5.0), (-9.0, 7.0, 5.0), (3.0, 8.0, -6.0), (-4.0, -9.0, -5.0)]
 
 
@@ -201,7 +215,7 @@ def test_scene_files_have_words_for_both():
         ("colour_by z steps 1", "expected 2 to 100"),
         ("colour_by z called T", "expected a text in quotes"),
         ('box_axes names "a" "b" C box 1 1 1', "expected three names"),
-        ("box_axes size -1", "finite and positive"),
+        ("box_axes size -1", "a positive number of mm"),
     ],
 )
 def test_mistakes_are_told_with_their_line(text, said):
@@ -263,3 +277,131 @@ def test_level_lines_over_colours_are_black_and_alone_where_nothing_else_is_aske
     heights = np.concatenate([paths.points3d[:, 2] for paths in (*layers["section"].strokes, *layers["index"].strokes)])
     rounded = hill.items[0].curves.sections
     assert set(heights.round(6)) <= {offset for section in rounded for offset in section.offsets}
+
+
+# Classes, ranges, logarithms, what is beyond, and the bar that says so.
+
+
+def areas(scene):
+    """The area of every item."""
+    return {one.name: float(np.linalg.norm(one.mesh.area_vectors, axis=1).sum()) / 2.0 for one in scene.items}
+
+
+def test_classes_have_the_areas_between_their_limits():
+    scene, bar = coloured(SQUARE, Colouring("x", at=(1.0, 2.0, 8.0), under="black", over="red"))
+    assert areas(scene) == pytest.approx({"S 1": 10.0, "S 2": 10.0, "S 3": 60.0, "S 4": 20.0})
+    assert [one.colour for one in scene.items] == ["#000000", *bar.colours, "#ff0000"]
+    assert bar.limits == (1.0, 2.0, 8.0) and bar.ticks() == [(0.0, "1"), (0.5, "2"), (1.0, "8")]
+
+
+def test_what_is_beyond_a_range_has_the_last_colours_where_nothing_else_is_said():
+    scene, bar = coloured(SQUARE, Colouring("x", low=2.0, high=4.0, steps=2))
+    assert areas(scene) == pytest.approx({"S 1": 30.0, "S 2": 70.0})
+    assert [one.colour for one in scene.items] == list(bar.colours)
+
+
+def test_a_logarithmic_scale_has_equal_ratios():
+    scene, bar = coloured(SQUARE, Colouring("10^(x/2.5)", low=1.0, high=1e4, steps=4, logarithmic=True))
+    assert bar.limits == pytest.approx((1.0, 10.0, 100.0, 1000.0, 10000.0))
+    assert areas(scene) == pytest.approx(dict.fromkeys(("S 1", "S 2", "S 3", "S 4"), 25.0), rel=0.02)
+    assert [text for _, text in bar.ticks()] == ["1", "10", "100", "1000", "10⁴"]
+    assert [place for place, _ in bar.ticks()] == pytest.approx([0.0, 0.25, 0.5, 0.75, 1.0])
+    below, _ = coloured(SQUARE, Colouring("x-5", steps=2, low=1.0, high=4.0, logarithmic=True, under="black"))
+    assert areas(below) == pytest.approx({"S 1": 60.0, "S 2": 10.0, "S 3": 30.0}, rel=0.06)
+    with pytest.raises(InputError, match="no number is positive"):
+        coloured(SQUARE, Colouring("-1-x", logarithmic=True))
+
+
+@pytest.mark.parametrize(("low", "high"), [(2.0, 7.0), (0.9, 1.2), (1e-7, 1e9), (10.0, 20.0)])
+def test_numbers_of_a_logarithmic_scale_are_few_round_and_in_order(low, high):
+    found = logarithmic_numbers(low, high, 6)
+    assert 1 <= len(found) <= 12 and list(found) == sorted(found)
+    assert all(low * (1 - 1e-9) <= value <= high * (1 + 1e-9) for value in found)
+
+
+@pytest.mark.parametrize("size", ["2.5", "5", "8pt"])
+def test_letters_of_a_bar_have_their_size_and_numbers_room(size):
+    own = Colouring("z", steps=4, size_mm=size)
+    drawing = vp.draw(replace(CUBE, colouring=own), "front", page="120x90", text="real")
+    (texts,) = drawing.layers[-1].texts
+    assert set(np.round(texts.size_mm / capital_height(size), 6)) == {1.0, 1.2}
+    assert (texts.points[:, 0] > 0.6 * 120).all() and (texts.points[:, 0] + texts.room_mm < 120.0).all()
+    heights = np.sort(texts.points[texts.size_mm < 1.1 * capital_height(size), 1])
+    assert (np.diff(heights) > 1.1 * capital_height(size)).all()
+
+
+def test_formulas_of_titles_are_set_and_long_ones_run_along_the_bar():
+    short, long = (
+        vp.draw(replace(CUBE, colouring=Colouring("z", label=label)), "front", page="120x90", text="real")
+        for label in (r"$\sigma_1$", r"the stress $\sigma_1$ in the middle")
+    )
+    for drawing, turn, text in ((short, 0.0, r"$\sigma_1$"), (long, 90.0, r"the stress $\sigma_1$ in the middle")):
+        (texts,) = drawing.layers[-1].texts
+        assert [turn for string, turn in zip(texts.strings, texts.turn_deg, strict=True) if string == text] == [turn]
+        assert drawing.width_mm == 120.0
+    strokes = vp.draw(replace(CUBE, colouring=Colouring("z", label=r"$\sin x$")), "front", page="120x90")
+    plain = vp.draw(replace(CUBE, colouring=Colouring("z", label="sin x")), "front", page="120x90")
+    assert write(strokes, "svg") == write(plain, "svg")
+    with pytest.raises(InputError, match=r"colour bar: there are no strokes for \\sum"):
+        vp.draw(replace(CUBE, colouring=Colouring("z", label=r"$\sum$")), "front")
+
+
+@pytest.mark.parametrize("verb", [vp.paint, vp.render])
+def test_unlit_colours_are_those_of_the_bar(verb):
+    lamp = vp.Light((5.0, -7.0, 3.0), colour="orange", intensity=0.4)
+    own = Colouring("x", steps=3, is_lit=False)
+    made = verb(replace(CUBE, colouring=own, lights=(lamp,)), vp.Camera((6.0, -9.0, 7.0)))
+    _, bar = coloured(CUBE, own)
+    colours = np.array([[int(word[k : k + 2], 16) for k in (1, 3, 5)] for word in bar.colours])
+    if verb is vp.paint:
+        fills = made.layers[0].fills[0]
+        assert {tuple(row) for row in fills.colours.reshape(-1, 3).tolist()} == {tuple(row) for row in colours.tolist()}
+    else:
+        for colour in colours:
+            assert (made.pixels == colour).all(axis=2).mean() > 0.02
+
+
+def test_a_bar_keeps_the_width_that_latex_knows_and_stands_off_the_picture():
+    drawing = vp.draw(
+        replace(CUBE, colouring=Colouring("z")), "front", page=vp.Page(80, 60, 1.0), width=r"0.5\linewidth"
+    )
+    assert in_latex(drawing.width_mm) == r"0.5\linewidth"
+    bar = drawing.layers[-1]
+    assert min(mark.points[:, 0].min() for mark in bar.marks) - max(
+        mark.points[:, 0].max() for layer in drawing.layers[:-1] for mark in layer.strokes if len(mark)
+    ) == pytest.approx(3.0, abs=1e-6)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        'colour_by x map heat steps 3 called "a" low 0 high 4 under black over "#ff0000" logarithmic unlit size 8pt',
+        "colour_by x classes 1, 2, 5.5 size 3",
+        "colour_by x low 1 logarithmic",
+        'scale_bar "nm" length 5 size 3',
+        "scale_bar",
+    ],
+)
+def test_all_words_are_written_as_they_are_read(text):
+    scene = parse_scene(text.replace("low 0", "low 0.1") + " BOX gray box 1 2 3")
+    again = parse_scene(write_scene(scene))
+    assert (again.colouring, again.scale_bar) == (scene.colouring, scene.scale_bar)
+    assert scene.colouring is not None or scene.scale_bar is not None
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ("colour_by x classes 2, 1", "ascending limits"),
+        ("colour_by x classes 1, 2 low 0", "ends in their limits"),
+        ("colour_by x low 3 high 2", "do not ascend"),
+        ("colour_by x low 0 logarithmic", "begins above 0"),
+        ("colour_by x under rde", "colour"),
+        ("colour_by x size -1", "positive number of mm"),
+        ("scale_bar length 0", "finite and positive"),
+        ('scale_bar "nm" lenght 3', "did you mean"),
+    ],
+)
+def test_what_is_wrong_with_bars_is_told(text, told):
+    with pytest.raises(InputError, match=told):
+        parse_scene(f"BOX gray box 1 2 3\n{text}")

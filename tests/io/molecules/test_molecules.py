@@ -8,12 +8,18 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.spatial import cKDTree
 from support.paths import ROOT
 
 import vectorplot as vp
+from vectorplot.cli.main import run
+from vectorplot.curves import CubicSpline, spline_curve
+from vectorplot.errors import InputError
+from vectorplot.features.mesh_lines import face_triangles
 from vectorplot.geometry import rotation_about
+from vectorplot.geometry.mesh_repair import is_closed_oriented
 from vectorplot.io import Molecule, molecule_scene, read_molecule
-from vectorplot.io.molecules import bonds_between, elements_of
+from vectorplot.io.molecules import bond_orders, bonds_between, elements_of
 from vectorplot.save import write
 
 WATER = "3\nwater\nO 0 0 0\nH 0.757 0.586 0\nH -0.757 0.586 0\n"
@@ -255,3 +261,88 @@ def test_of_atoms_in_one_place_the_largest_is_shown() -> None:
 def carbons(places: np.ndarray) -> Molecule:
     symbols = ("C",) * len(places)
     return Molecule("carbons", symbols, places, bonds_between(elements_of(symbols), places))
+
+
+# Double bonds, tubes and ribbons.
+
+
+@pytest.mark.parametrize(
+    ("symbols", "length", "order"),
+    [
+        *(("CC", 1.54, 1), ("CC", 1.39, 1), ("CC", 1.34, 2), ("CC", 1.20, 3), ("CO", 1.43, 1), ("CO", 1.22, 2)),
+        *(("CN", 1.33, 1), ("CN", 1.28, 2), ("CN", 1.16, 3), ("SO", 1.43, 2), ("PO", 1.48, 2), ("CH", 1.0, 1)),
+    ],
+)
+def test_orders_of_bonds_are_told_by_their_lengths(symbols, length, order):
+    places = np.array([(0.0, 0.0, 0.0), (length, 0.0, 0.0)])
+    elements = elements_of(tuple(symbols))
+    assert bond_orders(elements, places, np.array([(0, 1)])).tolist() == [order]
+
+
+def test_rods_of_a_double_bond_lie_side_by_side_in_the_plane_of_the_molecule():
+    places = np.array([(0.0, 0.0, 0.0), (1.34, 0.0, 0.0), (-0.55, 0.93, 0.0), (1.9, 0.93, 0.0), (-0.55, -0.93, 0.0)])
+    bonds = np.array([(0, 1), (0, 2), (0, 4), (1, 3)])
+    ethene = Molecule("e", ("C", "C", "H", "H", "H"), places, bonds, np.array([2, 1, 1, 1]))
+    rods = {item.name: item.shape for item in molecule_scene(ethene).items if "_" in item.name}
+    assert set(rods) == {"C1_C2", "C1_C2_2", "C1_H3", "C1_H5", "C2_H4"}
+    middle = [vp.Scene((vp.Item("rod", rods[name]),)).bounds.mean(axis=0) for name in ("C1_C2", "C1_C2_2")]
+    np.testing.assert_allclose(np.mean(middle, axis=0), (0.67, 0.0, 0.0), atol=1e-9)
+    np.testing.assert_allclose(np.abs(middle[1] - middle[0]), (0.0, 0.2, 0.0), atol=1e-9)
+
+
+HELIX = np.stack(
+    [
+        2.3 * np.cos(np.radians(100.0 * np.arange(12))),
+        2.3 * np.sin(np.radians(100.0 * np.arange(12))),
+        1.5 * np.arange(12),
+    ],
+    axis=1,
+)
+
+
+@pytest.mark.parametrize(("style", "wide", "thick"), [("tube", 0.5, 0.5), ("ribbon", 1.2, 0.3)])
+def test_a_band_has_its_section_about_the_spline_through_the_atoms(style, wide, thick):
+    chain = Molecule("h", ("C",) * 12, HELIX, np.zeros((0, 2), dtype=int), chains=(np.arange(12),))
+    (band,) = molecule_scene(chain, style).items
+    mesh = band.mesh
+    assert band.name == "chain_1" and is_closed_oriented(mesh)
+    # The volume of what is swept by a section that is square to its way: area times length.
+    spline = spline_curve(HELIX, CubicSpline())
+    course = spline.points(np.linspace(spline.start, spline.end, 4001))
+    length = np.linalg.norm(np.diff(course, axis=0), axis=1).sum()
+    fans = mesh.vertices[face_triangles(mesh).triangles]
+    volume = np.einsum("ij,ij->i", fans[:, 0], np.cross(fans[:, 1], fans[:, 2])).sum() / 6.0
+    # Its corners are on an ellipse.
+    assert 0.88 < volume / (np.pi * wide * thick * length) < 1.0
+    far = cKDTree(course).query(mesh.vertices)[0]
+    assert far.max() <= wide + 1e-3 and far.min() >= thick - 0.02
+
+
+def test_chains_of_files_run_through_their_backbones_and_ligands_stay_atoms(tmp_path):
+    rows = [
+        f"ATOM  {2 * k + 1:5d}  CA  ALA A{k + 1:4d}    {x:8.3f}{y:8.3f}{z:8.3f}  1.00  0.00           C  \n"
+        f"ATOM  {2 * k + 2:5d}  CB  ALA A{k + 1:4d}    {1.5 * x:8.3f}{1.5 * y:8.3f}{z:8.3f}  1.00  0.00           C  \n"
+        for k, (x, y, z) in enumerate(HELIX.tolist())
+    ]
+    gap = rows[:6] + rows[8:]
+    ligand = "HETATM   99 CA    CA A 200      20.000  20.000   5.000  1.00  0.00          CA  \n"
+    (tmp_path / "h.pdb").write_text("".join(gap) + ligand)
+    found = read_molecule(tmp_path / "h.pdb")
+    assert [len(chain) for chain in found.chains] == [6, 4]
+    assert found.of_chains.sum() == 20 and not found.of_chains[-1]
+    names = [item.name for item in vp.read(tmp_path / "h.pdb", molecules="tube").items]
+    assert names == ["Ca21", "chain_1", "chain_2"]
+    out = tmp_path / "h.svg"
+    assert run(["draw", str(tmp_path / "h.pdb"), "--molecules", "ribbon", "-o", str(out)]) == 0 and out.stat().st_size
+
+
+def test_a_chain_of_two_atoms_and_a_straight_one_have_bands_and_none_is_an_error(tmp_path):
+    for points in (HELIX[:2], np.outer(np.arange(5.0), (1.0, 2.0, 2.0))):
+        chain = Molecule(
+            "c", ("C",) * len(points), points, np.zeros((0, 2), dtype=int), chains=(np.arange(len(points)),)
+        )
+        assert is_closed_oriented(molecule_scene(chain, "ribbon").items[0].mesh)
+    with pytest.raises(InputError, match="there is no chain for a tube"):
+        vp.read("data/caffeine.xyz", molecules="tube")
+    with pytest.raises(InputError, match="for molecules only"):
+        vp.read("data/pencil.scene", molecules="tube")

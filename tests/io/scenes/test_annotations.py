@@ -17,9 +17,7 @@ ALIKE = {
     "axes 2": vp.axes(2.0),
     'arrow "F" from 0 0 0 to 3 4 0': vp.arrow(A, B, "F"),
     "dimension from 0,0,0 to 3,4,0 offset 0,0,-2 gap 0.5 beyond 1": vp.dimension(A, B, C, gap=0.5, beyond=1),
-    'dimension "a" from 0 0 0 to 3 4 0 offset 0 0 -2 size 10pt': vp.dimension(
-        A, B, C, "a", size_mm=0.7 * 10 * 25.4 / 72
-    ),
+    'dimension "a" from 0 0 0 to 3 4 0 offset 0 0 -2 size 10pt': vp.dimension(A, B, C, "a", size_mm="10pt"),
     "radius at 0 0 0 to 3 4 0": vp.radius(A, B),
     'diameter "10 H7" at 0 0 0 to 3 4 0': vp.diameter(A, B, "10 H7"),
     "angle at 0 0 0 from 3 4 0 to 0 0 -2 radius 1": vp.angle(A, B, C, 1),

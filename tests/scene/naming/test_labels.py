@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import pickle
+
 import numpy as np
 import pytest
+import shapely
 
 import vectorplot as vp
 from vectorplot import io
@@ -13,6 +16,7 @@ from vectorplot.io.anything import scene_of
 from vectorplot.io.scene_writer import write_scene
 from vectorplot.scene.annotations import label_anchors
 from vectorplot.scene.labels import capital_height
+from vectorplot.scene.page import in_latex
 from vectorplot.surfaces import Sphere
 
 ITEMS = (vp.Item("CUBE", box((2, 2, 2))), vp.Item("RING", Circle(radius=2.0)), vp.Item("BALL", Sphere(1.0)))
@@ -30,10 +34,22 @@ RING curve circle 2
 
 def test_sizes_in_mm_and_in_points() -> None:
     assert capital_height("3.5") == capital_height("3.5mm") == 3.5
-    assert capital_height("72pt") == pytest.approx(0.7 * 25.4)
-    for wrong in ("", "big", "-1", "0mm", "nan", "infpt", "3 cm"):
+    assert capital_height("72.27pt") == capital_height("72 bp") == pytest.approx(0.7 * 25.4)
+    assert vp.Label("A", (0, 0, 0), size_mm="72bp").size_mm == pytest.approx(0.7 * 25.4)
+    for wrong in ("", "big", "-1", "0mm", "nan", "infpt", "3 cm", "\\huger", "small", None, True):
         with pytest.raises(vp.InputError, match="a size of"):
             capital_height(wrong)
+
+
+@pytest.mark.parametrize("word", [r"\small", r"\Huge"])
+def test_a_size_of_latex_keeps_its_word_in_files_and_copies(word: str) -> None:
+    label = vp.Label("A", (0, 0, 4), size_mm=word)
+    scene = io.parse_scene(f'box_axes size {word} label A "A" at 0 0 4 size {word}')
+    assert scene.labels == (label,) and in_latex(scene.labels[0].capitals_mm) == word
+    again = pickle.loads(pickle.dumps(io.parse_scene(write_scene(scene))))
+    assert in_latex(again.labels[0].capitals_mm) == in_latex(again.box.capitals_mm) == word
+    ticks = vp.axes(2, ticks=1, size_mm=word).labels
+    assert {label.capitals_mm for label in ticks} == {label.capitals_mm, label.capitals_mm * 2 / 3}
 
 
 def test_scene_files_say_the_same_as_python() -> None:
@@ -134,3 +150,40 @@ def test_labels_of_several_scenes_name_their_own_items() -> None:
     for scene in (both, named):
         points = label_anchors(scene).points
         assert points[1] - points[0] == pytest.approx([10.0, 0.0, 0.0])
+
+
+ROOF = vp.Mesh.from_triangles(
+    [(0, 0, 0), (4, 0, 0), (0, 4, 0), (1, 1, 3)], [(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)]
+)
+
+
+def named_roof(margin: float, *names: str) -> vp.Scene:
+    labels = tuple(vp.Label(name, vp.AtVertex("roof", k)) for k, name in enumerate(names))
+    return vp.Scene((vp.Item("roof", ROOF),), labels=labels, page=vp.Page(100, 90, margin))
+
+
+@pytest.mark.parametrize("verb", [vp.draw, vp.paint])
+@pytest.mark.parametrize("page", [{}, {"width": "80mm"}, {"page": "scale 9:1"}], ids=["page", "width", "scale"])
+def test_labels_have_room_beside_the_outlines_of_a_picture_with_a_narrow_margin(verb, page) -> None:
+    scene = named_roof(1.0, "Alpha", "Bravo point", "C", "Summit")
+    drawing = verb(scene, "iso", text="real", **page)
+    (texts,) = [texts for layer in drawing.layers for texts in layer.texts]
+    world = drawing.page_from_world @ np.column_stack([ROOF.vertices, np.ones(4)]).T
+    corners = (world[:2] / world[3]).T
+    outline = shapely.MultiPoint(corners).convex_hull
+    for k in range(len(texts)):
+        left = texts.points[k, 0] - texts.anchor[k] * texts.room_mm[k]
+        box_ = shapely.box(left, texts.points[k, 1], left + texts.room_mm[k], texts.points[k, 1] + texts.size_mm[k])
+        assert not box_.intersects(outline), texts.strings[k]
+        assert shapely.box(0, 0, drawing.width_mm, drawing.height_mm).contains(box_), texts.strings[k]
+    low, high = corners.min(axis=0), corners.max(axis=0)
+    assert (low >= 1.0 - 1e-9).all() and (high <= np.array([drawing.width_mm, drawing.height_mm]) - 1.0 + 1e-9).all()
+
+
+def test_a_picture_whose_labels_have_room_stays_as_large_as_without_them() -> None:
+    wide, bare = (vp.draw(named_roof(15.0, *names), "iso") for names in (("A", "B", "C", "D"), ()))
+    np.testing.assert_array_equal(wide.page_from_world, bare.page_from_world)
+    narrow = vp.draw(named_roof(1.0, "A", "B", "C", "D"), "iso")
+    assert np.linalg.norm(narrow.page_from_world[0, :3]) < np.linalg.norm(
+        vp.draw(named_roof(1.0), "iso").page_from_world[0, :3]
+    )

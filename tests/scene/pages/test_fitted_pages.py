@@ -1,6 +1,7 @@
 """Pages that are as large as their pictures, and pages of a width."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -9,12 +10,17 @@ import vectorplot as vp
 from vectorplot.cli.main import run
 from vectorplot.drawing.drawing import Paths
 from vectorplot.drawing.fills import Fills
-from vectorplot.errors import InputError
+from vectorplot.errors import InputError, InputWarning
 from vectorplot.geometry.projections import projection_of
 from vectorplot.geometry.solids import box
 from vectorplot.io.scene_language import parse_scene
+from vectorplot.io.scene_writer import write_scene
+from vectorplot.scene import ScaleBar
 from vectorplot.scene.page import Page
 from vectorplot.scene.placement import fitted_page, fitted_picture, page_of_width
+
+POINT = 25.4 / 72.27
+"""A point of TeX in mm."""
 
 SLAB = vp.Scene((vp.Item("slab", box((4.0, 1.0, 2.0))),), page=Page(100.0, 200.0, 5.0))
 POLE = vp.Scene((vp.Item("pole", box((1.0, 1.0, 30.0))),))
@@ -58,10 +64,12 @@ def test_a_page_that_fits_is_the_picture_and_its_margin(verb, scale):
 
 @pytest.mark.parametrize("verb", VERBS)
 @pytest.mark.parametrize("scene", [SLAB, POLE])
-@pytest.mark.parametrize("width", [40.0, "40", "40mm", "4 cm", "1.5in", "120pt"])
+@pytest.mark.parametrize("width", [40.0, "40", "40mm", "4 cm", "1.5in", "120pt", "120bp", r"0.5\linewidth"])
 def test_a_page_of_a_width_is_as_high_as_its_picture(verb, scene, width):
     drawing = verb(scene, "front", page=Page(70.0, 30.0, 3.0), width=width)
-    mm = {"1.5in": 38.1, "120pt": 120.0 * 25.4 / 72.0}.get(width, 40.0)
+    mm = {"1.5in": 38.1, "120pt": 120.0 * POINT, "120bp": 120.0 * 25.4 / 72.0, r"0.5\linewidth": 172.5 * POINT}.get(
+        width, 40.0
+    )
     ratio = 0.5 if scene is SLAB else 30.0
     np.testing.assert_allclose(page_of(drawing), (mm, (mm - 6.0) * ratio + 6.0), rtol=1e-9)
     np.testing.assert_allclose(extent(drawing), [(3, 3), page_of(drawing) - 3], rtol=1e-9)
@@ -109,7 +117,7 @@ def test_an_empty_picture_and_one_of_the_field_of_vision_have_a_whole_page(verb)
 @pytest.mark.parametrize(
     ("said", "told"),
     [
-        ({"width": "8x"}, "'8x' is no length: expected a positive number, and perhaps mm, pt, cm, in"),
+        ({"width": "8x"}, "'8x' is no length: expected a positive number, and perhaps mm, pt, bp, cm, in"),
         ({"width": "1e999"}, "'1e999' is no length"),
         ({"width": 15}, "a margin of 10 mm leaves nothing of the page"),
         ({"width": -1}, "not a page"),
@@ -178,3 +186,65 @@ def test_a_page_of_a_width_is_not_cut_and_sheets_may_lie_on_their_side(tmp_path)
     box.write_text("B gray box solid 3 2 1\n")
     assert run(["draw", str(box), "--page", "A5 landscape", "-o", str(tmp_path / "a.svg")]) == 0
     assert 'viewBox="0 0 210 148"' in (tmp_path / "a.svg").read_text()
+
+
+@pytest.mark.parametrize("verb", VERBS)
+@pytest.mark.parametrize(("scale", "factor"), [("1:2", 0.5), ("3", 3.0), ("5:1", 5.0)])
+def test_a_page_at_a_scale_is_as_large_as_its_picture(verb, scale, factor):
+    drawing = verb(SLAB, "front", page=f"scale {scale}")
+    wide, high = np.ptp(SLAB.bounds, axis=0)[[0, 2]]
+    margin = SLAB.page.margin_mm if SLAB.page else 10.0
+    np.testing.assert_allclose(page_of(drawing), (factor * wide + 2 * margin, factor * high + 2 * margin))
+    np.testing.assert_allclose(np.linalg.norm(drawing.page_from_world[0, :3]), factor, rtol=1e-12)
+    with pytest.raises(InputError, match="parallel projections"):
+        verb(SLAB, vp.Camera((9, -9, 9)), page=f"scale {scale}")
+
+
+@pytest.mark.parametrize("text", ["1:0", "0", "a:b", "1:2:3", ""])
+def test_what_is_no_scale_is_told(text):
+    with pytest.raises(InputError, match="expected two numbers such as 1:2"):
+        vp.draw(SLAB, "front", page=f"scale {text}")
+    with pytest.raises(InputError, match="does not go with no-fit"):
+        vp.draw(SLAB, "front", page="scale 1:2", fit=False)
+
+
+def test_a_scene_file_says_its_scale():
+    scene = parse_scene("page scale 1:4 margin 3 BOX gray box 1 2 3")
+    assert scene.page.mm_per_unit == 0.25 and scene.page.margin_mm == 3.0
+    assert parse_scene(write_scene(scene)).page == scene.page
+    with pytest.raises(InputError, match="exclude each other"):
+        parse_scene("page scale 1:4 fit BOX gray box 1 2 3")
+
+
+@pytest.mark.parametrize("verb", VERBS)
+@pytest.mark.parametrize("page", [None, "fit", "scale 1:2", "120x80"])
+def test_a_scale_bar_is_as_long_as_what_it_says(verb, page):
+    scene = replace(SLAB, scale_bar=ScaleBar("nm"))
+    drawing, plain = verb(scene, "front", page=page, text="real"), verb(SLAB, "front", page=page, text="real")
+    bar = drawing.layers[-1]
+    assert bar.name == "scale bar"
+    course, (said,) = bar.strokes[0].points, bar.texts[0].strings
+    length = float(said.removesuffix(" nm"))
+    scale = np.linalg.norm(drawing.page_from_world[0, :3])
+    assert np.ptp(course[:, 0]) == pytest.approx(length * scale) and f"{length:.0e}"[0] in "125"
+    # Whole pages stay as they are, the others are higher by the strip; what is drawn stands above it.
+    if page in ("fit", "scale 1:2"):
+        assert page_of(drawing)[1] == pytest.approx(page_of(plain)[1] + 2.4 * 2.5)
+    else:
+        np.testing.assert_allclose(page_of(drawing), page_of(plain))
+    assert extent(replace(drawing, layers=drawing.layers[:-1]))[0][1] > course[:, 1].max()
+    # Where world points are says the matrix still.
+    world = drawing.layers[0].strokes[0] if verb is vp.draw else None
+    if world is not None:
+        at = np.column_stack([world.points3d, np.ones(len(world.points3d))]) @ drawing.page_from_world.T
+        np.testing.assert_allclose(at[:, :2] / at[:, 3:], world.points, atol=1e-6)
+
+
+def test_scale_bars_have_no_place_where_nothing_has_a_scale():
+    scene = replace(SLAB, scale_bar=ScaleBar(length=1e6))
+    with pytest.raises(InputError, match="longer than the page"):
+        vp.draw(scene, "front")
+    with pytest.raises(InputError, match="for parallel projections"):
+        vp.draw(scene, vp.Camera((9, -9, 9)))
+    with pytest.warns(InputWarning, match="a scale bar"):
+        vp.render(replace(SLAB, scale_bar=ScaleBar()), "front", size=(60, 40))

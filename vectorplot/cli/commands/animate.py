@@ -133,7 +133,9 @@ def animate(
         click.echo(table(summed(reports)), err=True)
 
 
-NOT_OF_FRAMES = {"certificate", "strict", "scene_file", "out", "format_", "exaggeration", "panorama", "strips"}
+NOT_OF_FRAMES = {
+    *("certificate", "strict", "scene_file", "out", "format_", "exaggeration", "molecules", "panorama", "strips")
+}
 """Parameters of the verbs that frames have not."""
 
 KNOWN = {verb: {str(option.name): option for option in getattr(made, verb).params} for verb, made in VERBS.items()}

@@ -8,7 +8,7 @@ from functools import partial
 from itertools import product
 from math import prod
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import click
 
@@ -30,6 +30,7 @@ from vectorplot.cli.picture import check_place, progress_bar, reported_warnings,
 
 if TYPE_CHECKING:
     from vectorplot.drawing.drawing import Drawing
+    from vectorplot.scene.page import Page
 
 
 VERBS = {"draw": draw, "paint": paint}
@@ -40,6 +41,9 @@ MOST_CELLS = 1000
 
 CELL_MARGIN_MM = 8.0
 """Around the drawing in its cell, where its name does not need more: letters stand in it."""
+
+AS_WIDE_MM = 0.01
+"""A figure has the width of its page to within this."""
 
 Cell = tuple[str, ...]
 
@@ -96,6 +100,14 @@ def _verb(text: str) -> tuple[str, ...]:
     LANDSCAPE,
     click.option("--columns", type=click.IntRange(1), metavar="N", help="Side by side.  [default: as fits best]"),
     click.option("--gap", "gap_mm", type=at_least(0.0), default=5.0, metavar="MM", help="Between drawings."),
+    click.option(
+        "--panels",
+        metavar="LETTERS",
+        is_flag=False,
+        flag_value="a)",
+        show_default=False,
+        help="A figure as wide as the page: in one row, at one scale, on one line, lettered a) b) c), or as in '(a)'.",
+    ),
     click.option("--names/--no-names", default=True, help="Under each drawing what it shows."),
     click.option("--title", default="", metavar="TEXT", show_default=False, help="Of the file."),
     *WORKER_OPTIONS,
@@ -120,6 +132,13 @@ def contact_sheet(
     page = page.landscape if told["landscape"] else page
     captions = [name for _, name, _ in cells] if told["names"] else []
     margin = max([CELL_MARGIN_MM, *(room_for_title(name, width) for name in captions)])
+    if told["panels"] is not None:
+        given = {"--columns": told["columns"], "--no-names": None if told["names"] else True}
+        for name in (name for name, value in given.items() if value is not None):
+            raise click.UsageError(f"{name} does not go with --panels")
+        made = _figure(verb, cells, page, told, workers, quiet)
+        write_out(out, write(made, written))
+        return
     same = ("--page", f"{width!r}x{height!r}", "--margin", repr(margin), *verb[1:])
     params = [_params(verb[0], path, (*same, *_named(name, told["names"]), *words)) for path, name, words in cells]
     if workers.given:
@@ -142,6 +161,48 @@ def contact_sheet(
         drawings: list[Drawing] = results(calls, executor, window=window, tell=partial(drawn, progress))
         made = sheet_of(drawings, page, columns=told["columns"], gap_mm=told["gap_mm"], title=told["title"])
         write_out(out, write(made, written))
+
+
+def _figure(
+    verb: tuple[str, ...],
+    cells: Sequence[tuple[str, str, Cell]],
+    page: Page,
+    told: Mapping[str, Any],
+    workers: WorkerOptions,
+    quiet: bool,
+) -> Drawing:
+    """The drawings in a row at one scale, with the width of the page inside its margin."""
+    from vectorplot.batch.running import results
+    from vectorplot.drawing.sheets import panels, shared_scale
+
+    if len(cells) > 26:
+        raise click.UsageError(f"{len(cells)} panels: expected 26 or fewer")
+    width = page.width_mm - 2.0 * page.margin_mm
+    with (
+        reported_warnings(quiet=quiet),
+        progress_bar(quiet=quiet) as progress,
+        workers.executor() as (executor, window),
+    ):
+
+        def drawn(sheet: str, part: float) -> list[Drawing]:
+            params = [
+                _params(verb[0], path, ("--page", sheet, "--margin", "0", *verb[1:], *words))
+                for path, _, words in cells
+            ]
+            params = [{**one, "jobs": one["jobs"] or 1} for one in params] if workers.given else params
+            if progress is not None:
+                progress("panels", part)
+            return results([partial(picture_of, verb[0], one) for one in params], executor, window=window)
+
+        # How wide they are beside each other tells the scale that they have room at; two such widths tell it exactly.
+        first = drawn("fit", 0.0)
+        scale = shared_scale(first, width, told["gap_mm"])
+        text: Literal["strokes", "real"] = "real" if "real" in verb else "strokes"
+        found = drawn(f"scale {scale!r}", 0.3)
+        beside = (len(found) - 1) * told["gap_mm"]
+        if abs(sum(one.width_mm for one in found) + beside - width) > AS_WIDE_MM:
+            found = drawn(f"scale {shared_scale(found, width, told['gap_mm'], first)!r}", 0.6)
+        return panels(found, gap_mm=told["gap_mm"], letters=told["panels"], text=text, title=told["title"])
 
 
 def _cells(inputs: Sequence[str], vary: Sequence[tuple[str, Cell]]) -> list[tuple[str, str, Cell]]:

@@ -12,6 +12,7 @@ from vectorplot.cli.options import (
     BACKGROUND,
     DEPTH_CUE,
     DRAWING_FORMATS,
+    FONT,
     FRAME,
     HALO,
     HATCHING_OPTIONS,
@@ -75,6 +76,7 @@ if TYPE_CHECKING:
     TITLE,
     FRAME,
     TEXT,
+    FONT,
     click.option(
         "--longest",
         "longest_mm",
@@ -92,8 +94,8 @@ if TYPE_CHECKING:
     ),
 )
 def draw(scene: Scene, **told: Any) -> Drawing:
-    """Draw INPUT, a scene file (- for stdin), mesh (obj, stl, ply, off, glb), molecule (xyz, pdb, cif) or terrain
-    (asc, xyz), and write OUT (svg, ps, eps, pdf, png, tex, dxf, json).
+    """Draw INPUT, a scene file (- for stdin), mesh (obj, stl, ply, off, glb, vtk, vtu), CAD part (step, iges, brep),
+    molecule (xyz, pdb, cif) or terrain (asc, xyz), and write OUT (svg, ps, eps, pdf, png, tex, dxf, json).
 
     Camera options replace the fields of the camera in the scene file one by one.
     """
@@ -150,6 +152,18 @@ def _all_round(
     for name, value in {**unlike, **flags, **halo, **cue, "hidden": told["hidden"]}.items():
         if value is not None and value != "none":
             raise click.UsageError(f"--{name.replace('_', '-')} does not go with --panorama")
-    unused = ("camera", "fit", "hidden", "halo_mm", "scale_pens", "thin_ends", "depth_cue", "text", "off_by", "within")
+    unused = (
+        "camera",
+        "fit",
+        "hidden",
+        "halo_mm",
+        "scale_pens",
+        "thin_ends",
+        "depth_cue",
+        "text",
+        "font",
+        "off_by",
+        "within",
+    )
     rest = {name: value for name, value in told.items() if name not in unused}
     return panorama(scene, Panorama(standing, strips=strips), **rest)

@@ -13,6 +13,7 @@ from vectorplot.cli.options import (
     DRAWING_FORMATS,
     EXPOSURE,
     FACE_OPTIONS,
+    FONT,
     FRAME,
     LIGHTS,
     OVERLAID_OPTIONS,
@@ -56,12 +57,13 @@ if TYPE_CHECKING:
     TITLE,
     FRAME,
     TEXT,
+    FONT,
     SHORTEST,
     TILES,
 )
 def paint(scene: Scene, **told: Any) -> Drawing:
-    """Paint INPUT, a scene file (- for stdin), mesh (obj, stl, ply, off, glb), molecule (xyz, pdb, cif) or terrain
-    (asc, xyz), and write OUT (svg, ps, eps, pdf, png, tex, dxf, json).
+    """Paint INPUT, a scene file (- for stdin), mesh (obj, stl, ply, off, glb, vtk, vtu), CAD part (step, iges, brep),
+    molecule (xyz, pdb, cif) or terrain (asc, xyz), and write OUT (svg, ps, eps, pdf, png, tex, dxf, json).
 
     Camera options replace the fields of the camera in the scene file one by one.
     """

@@ -81,8 +81,8 @@ FORMATS = ("png",)
     BACKGROUND,
 )
 def render(scene: Scene, **told: Any) -> Image:
-    """Render INPUT, a scene file (- for stdin), mesh (obj, stl, ply, off, glb), molecule (xyz, pdb, cif) or terrain
-    (asc, xyz), as a PNG picture OUT.
+    """Render INPUT, a scene file (- for stdin), mesh (obj, stl, ply, off, glb, vtk, vtu), CAD part (step, iges, brep),
+    molecule (xyz, pdb, cif) or terrain (asc, xyz), as a PNG picture OUT.
 
     Camera options replace the fields of the camera in the scene file one by one.
     """
