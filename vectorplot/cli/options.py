@@ -762,6 +762,13 @@ PROMISES = (
 )
 """An error or a time that a picture keeps."""
 
+UNIT = click.option(
+    "--unit",
+    type=click.Choice(["mm", "cm", "m", "in"]),
+    default="mm",
+    help="What a unit of the part is; all other lengths are in mm whatever it is.",
+)
+
 TITLE = click.option("--title", default="", metavar="TEXT", show_default=False, help="Letters in the lower margin.")
 
 FRAME = click.option("--frame", is_flag=True, help="A rectangle in the margin.")

@@ -19,6 +19,7 @@ from vectorplot.cli.options import (
     QUIET,
     TILES,
     TOLERANCE,
+    UNIT,
     crease_angle_option,
     drawing_format,
     format_option,
@@ -41,9 +42,7 @@ if TYPE_CHECKING:
     click.option("--page", metavar="SIZE", help="A0 to A6, letter, ... or WIDTHxHEIGHT in mm.  [default: as needed]"),
     LANDSCAPE,
     click.option("--scale", default="1:1", metavar="A:B", help="Mm on paper for mm in space."),
-    click.option(
-        "--unit", type=click.Choice(["mm", "cm", "m", "in"]), default="mm", help="What a unit of the scene is."
-    ),
+    UNIT,
     click.option(
         "--tabs", "tabs_mm", type=of_option("tabs_mm"), default=0.0, metavar="MM", help="Tabs to glue, so wide."
     ),

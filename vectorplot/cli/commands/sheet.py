@@ -22,6 +22,7 @@ from vectorplot.cli.options import (
     QUIET,
     SHORTEST,
     TEXT,
+    UNIT,
     VIEW_WORDS,
     check_overlaid,
     crease_angle_option,
@@ -73,12 +74,7 @@ def _field(text: str) -> tuple[str, str]:
         metavar="A:B",
         help="Mm on paper for units of the part; fit: the largest of ISO 5455.",
     ),
-    click.option(
-        "--unit",
-        type=click.Choice(["mm", "cm", "m", "in"]),
-        default="mm",
-        help="What a unit of the part is; sections, details and the scale are in mm whatever it is.",
-    ),
+    UNIT,
     click.option(
         "--standard",
         type=click.Choice(["iso", "asme"]),
