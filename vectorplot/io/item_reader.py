@@ -673,7 +673,6 @@ OTHERWISE = {
     **dict.fromkeys(("cube", "cuboid"), _BOX),
     "pyramid": "a pyramid is its 'vertices' and 'faces', or a 'revolution' with as large an 'order' as it has sides",
     "polyhedron": "a polyhedron is its 'vertices' and 'faces'",
-    "union": "bodies that pierce each other are drawn with the lines in which they do",
     "difference": "holes are 'bore' and 'cutout', and 'cut' takes away what is before a plane",
 }
 """What is said in other words than those that other programs have for it."""

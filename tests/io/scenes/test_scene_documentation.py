@@ -24,7 +24,7 @@ def test_the_examples_of_the_documentation_are_scenes():
     surfaces = [["RING"], capped, ["SPRING", "VASE", "WAVES", "HEART"], *lines]
     curves = ["GLOBE", "COURSE", "SPRING", "KNOT"]
     splines = [["WIRE", "RING", "BOW", "ARC", "SAIL", "VASE"], ["HILLS"], ["HILLS", "DUNES"]]
-    bodies = [["TOP", "MUG"], ["PLATE"], ["POST", "SPOKE"], ["CUBE"], ["WALLS", "ROOF"]]
+    bodies = [["TOP", "MUG"], ["PLATE"], ["POST", "SPOKE"], ["CUBE"], ["WALLS", "ROOF"], ["CASTLE"]]
     assert names == [*bodies, *surfaces, curves, *splines, ["PENCIL"], ["HOUSE"]]
 
 

@@ -46,7 +46,10 @@ CONE = "CONE green revolution solid meridian 4 0 0 , 0 0 7 order 30"
         ("B box 1 1 1\nlamp 1 2 3", r"lamp: expected one of .* \(or is 'lamp' meant to be 'light'\?\)"),
         ("B gray prism 1 2 3", "B: there is no 'prism': a prism is a 'translation' with 'base_points'"),
         ("B Cuboid 1 2 3", "B: there is no 'Cuboid': expected 'box' and its three lengths"),
-        ("A box 1 1 1 B box 1 1 1 C red union A, B", "C: there is no 'union': bodies that pierce each other are drawn"),
+        (
+            "A box 1 1 1 B box 1 1 1 C red union A, B",
+            "C: expected one of vertices, revolution, translation, box, intersection, surface, curve, mesh, terrain, got",
+        ),
         ("A box 1 1 1\nB #c86414 box 1 1 1", r'<text>:2: B: .* \(behind # is a comment; .* colour "#c86414"\)'),
         ("A box 1 1 1\nB red # c86414", r"B: expected one of .*terrain, got the end of the file$"),
         ("B gray cone radius 1 height 2", "B: 'cone' is a surface: expected 'surface cone'"),
