@@ -715,11 +715,11 @@ def baseline_dimension(
 
     Parameters
     ----------
-    points, offset : array_like and array_like
+    points, offset : (n, 3) array_like of float and (3,) array_like of float
         See chain_dimension.
     step : float, optional
         From one dimension line to the next, in world units; where None 0.7 times the offset.
-    size_mm, gap, beyond : float, float and float
+    size_mm, gap, beyond : float or str, float and float
         See chain_dimension.
 
     Returns
@@ -760,12 +760,12 @@ def ordinate_dimension(
 
     Parameters
     ----------
-    points, offset : array_like and array_like
+    points, offset : (n, 3) array_like of float and (3,) array_like of float
         See chain_dimension.
     apart : float
         The extension lines of points that are closer to each other lead so far apart beyond the dimension line, in
         world units; on technical sheets as far as letters need.
-    size_mm, gap : float and float
+    size_mm, gap : float or str, and float
         See chain_dimension.
     beyond : float, optional
         How far the extension lines go on beyond the dimension line, beside the measures; where None 1.2 times the

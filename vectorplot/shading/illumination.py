@@ -114,6 +114,7 @@ FINISHES: dict[str, Finish] = {
     "plastic": Finish.polished(64.0, 0.5),
     "transparent": Finish.polished(256.0, 0.9),
     "mirror": Finish.polished(1024.0, 0.2),
+    "unlit": Finish(),
 }
 """What the words of scene.Material mean. Source: Glaeser, sections 4.5, figure 4, and 8.5, figure 18."""
 
