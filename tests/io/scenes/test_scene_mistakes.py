@@ -48,7 +48,7 @@ CONE = "CONE green revolution solid meridian 4 0 0 , 0 0 7 order 30"
         ("B Cuboid 1 2 3", "B: there is no 'Cuboid': expected 'box' and its three lengths"),
         (
             "A box 1 1 1 B box 1 1 1 C red union A, B",
-            "C: expected one of vertices, revolution, translation, box, intersection, surface, curve, mesh, terrain, got",
+            "C: expected one of vertices, revolution, translation, box, intersection, surface, curve, mesh",
         ),
         ("A box 1 1 1\nB #c86414 box 1 1 1", r'<text>:2: B: .* \(behind # is a comment; .* colour "#c86414"\)'),
         ("A box 1 1 1\nB red # c86414", r"B: expected one of .*terrain, got the end of the file$"),
