@@ -8,18 +8,41 @@ import sys
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 from support.effort import several
-from support.mutations import MUTATIONS, SCENES, faults, mutated
+from support.mutations import MUTATIONS, SCENES, SMOOTH, faults, mutated
+from support.mutations import drawn as drawn_of
 from support.paths import DATA, PACKAGE
 
 import vectorplot as vp
 from vectorplot.backends.json import json_bytes
 from vectorplot.cli.main import run
+from vectorplot.curves import Circle, Line
 from vectorplot.errors import InputError
 from vectorplot.features import mesh_of_grid
 from vectorplot.geometry import box
-from vectorplot.surfaces import Torus
+from vectorplot.io.scene_language import parse_scene
+from vectorplot.surfaces import (
+    Capped,
+    Cone,
+    Cylinder,
+    Ellipsoid,
+    Frustum,
+    HyperbolicParaboloid,
+    Hyperboloid,
+    Paraboloid,
+    Sphere,
+    Torus,
+    helical_surface,
+    helicoid_to_catenoid,
+    revolution_surface,
+    translation_surface,
+)
 from vectorplot.testing import assert_certified, certificate
+from vectorplot.testing.certificates import surfaces_of
+from vectorplot.testing.certified_image import image_of
+from vectorplot.testing.certified_surfaces import NUMBERS, contour_cells, deviations, patch_of, value_of
 from vectorplot.testing.check_certificate import check
 
 CHECKER = PACKAGE / "testing" / "check_certificate.py"
@@ -136,15 +159,15 @@ def test_an_empty_scene_is_proved():
     }
 
 
-def test_smooth_shapes_are_not_proved_and_not_called_wrong():
-    scene = vp.read(DATA / "house.scene")
-    drawing = vp.draw(scene, hidden="solid")
-    made = certificate(scene, drawing, hidden="solid")
-    assert made.unproved == ("what BALL shows and hides, which is a smooth shape",)
+def test_shapes_without_formulas_are_not_proved_and_not_called_wrong():
+    scene = vp.read(DATA / "implicit.scene")
+    drawing = vp.draw(scene, hidden="solid", page="60x40")
+    made = certificate(scene, drawing, hidden="solid", page="60x40")
+    assert made.unproved[0] == "what CUBE shows and hides, which is a smooth shape without formulas, or too large"
     wrong, unproven, _ = told(drawing, made)
     assert not wrong and unproven[0] == made.unproved[0]
-    with pytest.raises(AssertionError, match="not proven: what BALL"):
-        assert_certified(scene, drawing, hidden="solid")
+    with pytest.raises(AssertionError, match="not proven: what CUBE"):
+        assert_certified(scene, drawing, hidden="solid", page="60x40")
 
 
 def test_what_labels_and_lists_of_edges_leave_out_is_said():
@@ -166,12 +189,13 @@ def test_wireframes_have_no_certificate():
         certificate(box((2, 2, 2)), vp.draw(box((2, 2, 2)), style="wireframe"), style="wireframe")
 
 
-def test_the_checker_is_short_and_knows_nothing_of_the_package():
-    source = CHECKER.read_text("utf-8")
+@pytest.mark.parametrize("name", ["check_certificate", "certified_image", "certified_surfaces"])
+def test_the_checker_is_short_and_knows_nothing_of_the_package(name):
+    source = CHECKER.with_name(f"{name}.py").read_text("utf-8")
     assert len(source.splitlines()) <= 400
     imports = [node for node in ast.walk(ast.parse(source)) if isinstance(node, ast.Import | ast.ImportFrom)]
     names = {(getattr(node, "module", None) or node.names[0].name).split(".")[0] for node in imports}
-    assert names <= sys.stdlib_module_names | {"numpy"}
+    assert names <= sys.stdlib_module_names | {"numpy", "certified_image", "certified_surfaces"}
 
 
 @pytest.mark.slow
@@ -211,10 +235,10 @@ def test_numbers_that_point_nowhere_are_told(tmp_path):
 
 
 def test_the_command_says_what_is_not_proved(tmp_path, capsys):
-    words = ["draw", str(DATA / "house.scene"), "-o", str(tmp_path / "house.svg"), "--certificate"]
-    assert run([*words, str(tmp_path / "house.json")]) == 0
+    words = ["draw", str(DATA / "implicit.scene"), "-o", str(tmp_path / "soft.svg"), "--page", "60x40", "--certificate"]
+    assert run([*words, str(tmp_path / "soft.json")]) == 0
     said = capsys.readouterr().err.splitlines()
-    assert len(said) == 1 and "the certificate does not prove what BALL shows and hides" in said[0]
+    assert len(said) == 1 and "the certificate does not prove what CUBE" in said[0]
 
 
 @pytest.mark.parametrize(
@@ -247,3 +271,160 @@ def test_names_are_escaped(tmp_path):
     made.save(tmp_path / "proof.json")
     text = (tmp_path / "proof.json").read_text("ascii")
     assert json.loads(text)["items"][0]["name"] == name
+
+
+# Surfaces by formulas: balls, rods, cones, rings and others.
+
+
+def small_pictures():
+    """Surfaces of every family that has formulas, and where to look from."""
+    circle = Circle(centre=(2.0, 0.0, 0.0), radius=0.6, axis=(0.0, 1.0, 0.0))
+    leaning = Circle(centre=(0.0, 0.0, 0.0), radius=0.5, axis=(1.0, 0.0, 0.3))
+    saddle = parse_scene('S surface function "u" "v" "u^2/2 - v^3/3" u -1 1 v -1 1').items[0].shape
+    hill = parse_scene('H surface graph "exp(-x^2-y^2)" x -2 2 y -2 2').items[0].shape
+    return {
+        "ball": Sphere(1.0),
+        "egg": Ellipsoid((3.0, 2.0, 1.4)),
+        "pipe": Cylinder(1.0, 0.0, 2.0),
+        "funnel": Cone(0.5, 0.5, 2.0),
+        "bucket": Frustum(1.0, 0.6, 1.5),
+        "can": Capped(Cylinder(1.0, 0.0, 2.0)),
+        "hat": Capped(Cone(0.5, -2.0, 0.0)),
+        "dome": Capped(Sphere(1.0), v=(0.0, 0.5 * np.pi)),
+        "waist": Hyperboloid((1.0, 1.0, 1.0)),
+        "bowl": Paraboloid(1.0, 1.0, 1.0),
+        "ring": Torus(3.0, 1.0),
+        "pass": HyperbolicParaboloid(),
+        "spring": helical_surface(circle, 0.3, end=9.0),
+        "turned": revolution_surface(Line((1.0, -1.2, -2.0), (0.0, 2.4, 4.0))),
+        "shifted": translation_surface(leaning, Line((0.0, 0.0, 0.0), (3.0, 0.0, 0.0))),
+        "sail": helicoid_to_catenoid(0.8),
+        "formula": saddle,
+        "hill": hill,
+    }
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", list(small_pictures()))
+@pytest.mark.parametrize("eye", [(8.0, -11.0, 6.0), (2.0, 12.0, 0.5)])
+def test_surfaces_of_all_families_are_proved(name, eye):
+    scene = vp.Scene((vp.Item("SHAPE", small_pictures()[name]), vp.Item("POST", box((0.3, 0.3, 4.0)))))
+    camera = vp.Camera(eye)
+    drawing = vp.draw(scene, camera, hidden="solid", page="50x40", lines="contour,boundary,crease")
+    how = {"hidden": "solid", "page": "50x40", "lines": "contour,boundary,crease"}
+    assert assert_certified(scene, drawing, camera, **how)["triangles"] > 100
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("hidden", ["none", "dashed", "solid"])
+@pytest.mark.parametrize("name", SMOOTH)
+def test_right_drawings_of_surfaces_are_not_called_wrong(name, hidden):
+    scene = vp.read(DATA / f"{name}.scene")
+    drawing = vp.draw(scene, hidden=hidden)
+    wrong, unproven, counts = told(drawing, certificate(scene, drawing, hidden=hidden))
+    assert not wrong and counts["triangles"] > 1000
+    assert all("stroke on a surface, where it is, is one" in line for line in unproven)
+
+
+@pytest.fixture(scope="module")
+def drawn_surfaces():
+    """Scenes of surfaces with all their lines, as in a file."""
+    return drawn_of(["house", "ruled", "torus"], "solid")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("mutation", MUTATIONS, ids=lambda mutation: mutation.__name__)
+def test_mutated_drawings_of_surfaces_are_caught(drawn_surfaces, mutation):
+    rng = np.random.default_rng(8)
+    caught = 0
+    while caught < several(2, long=50):
+        scene, drawing = drawn_surfaces[int(rng.integers(len(drawn_surfaces)))]
+        other = mutated(rng, drawing, mutation)
+        if other is not None:
+            assert faults(scene, other, "solid")
+            caught += 1
+
+
+def ball_of(radius=1.0):
+    """The row of a certificate for a ball with a rough net."""
+    u, v = np.linspace(0.0, 2.0 * np.pi, 33), np.linspace(-1.5, 1.5, 17)
+    formulas = [f"{radius}*cos(v)*cos(u)", f"{radius}*cos(v)*sin(u)", f"{radius}*sin(v)"]
+    place = np.eye(3, 4).tolist()
+    return patch_of({"formulas": formulas, "placement": place, "u": u.tolist(), "v": v.tolist()})
+
+
+PERSPECTIVE = np.array([[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 0.0, 5.0], [0.0, 0.0, -1.0, 5.0]])
+"""An eye at height 5 above the origin, in which planes stay planes."""
+
+
+def image_at(patch, u, v):
+    """(n,3) the image of points of a surface."""
+    return image_of(PERSPECTIVE, patch.points(u, v))[0]
+
+
+@given(st.lists(st.floats(0.0, 1.0), min_size=3, max_size=3))
+def test_points_of_cells_are_in_their_ranges(shares):
+    patch, (a, b, c) = ball_of(), shares
+    cells = patch.grid()
+    cell = cells[int(a * (len(cells) - 1))]
+    u, v = cell[0] + b * (cell[1] - cell[0]), cell[2] + c * (cell[3] - cell[2])
+    point = image_at(patch, np.array([u]), np.array([v]))[0]
+    for one, x in zip(patch.jets(PERSPECTIVE, cell[None]), point, strict=True):
+        assert one.value.low[0] <= x <= one.value.high[0]
+
+
+def test_nets_are_no_farther_off_than_proved():
+    patch = ball_of()
+    cells = patch.grid()
+    bound = deviations(patch, PERSPECTIVE, cells).sum(axis=1)
+    u0, u1, v0, v1 = cells.T
+    rng = np.random.default_rng(3)
+    worst = np.zeros(len(cells))
+    for a, b in np.sort(rng.random((30, 2)), axis=1):
+        on = image_at(patch, u0 + b * (u1 - u0), v0 + a * (v1 - v0))
+        corners = [image_at(patch, u, v) for u, v in ((u0, v0), (u1, v0), (u1, v1))]
+        flat = (1.0 - b) * corners[0] + (b - a) * corners[1] + a * corners[2]
+        worst = np.maximum(worst, np.linalg.norm(on - flat, axis=1))
+    assert (worst <= bound).all() and (worst > 0.2 * bound).mean() > 0.5
+
+
+def test_contours_are_in_the_cells_and_nowhere_else():
+    """The contour of a ball is a circle: at height r^2 / d, of radius r sqrt(1 - (r / d)^2)."""
+    cells, every = contour_cells(ball_of(), PERSPECTIVE, 0.01)
+    assert every
+    radius = np.hypot(*cells[:, :2].T)
+    assert np.abs(radius - np.sqrt(1.0 - 0.04) / (5.0 - 0.2)).max() < 0.01
+    assert (cells[:, 8] > 0.0).mean() > 0.8
+    outwards = (cells[:, :2] * cells[:, 6:8]).sum(axis=1)
+    assert (outwards > 0.0).all()
+    turn = np.sort(np.arctan2(cells[:, 1], cells[:, 0]))
+    assert np.diff(turn).max() * 0.2 < 0.02
+
+
+@pytest.mark.parametrize(
+    "text", ["__import__('os')", "u.real", "[u]", "u if v else 1", "open('x')", "lambda: u", "w", "sin(u, v)", "'u'"]
+)
+def test_formulas_are_never_run(text):
+    with pytest.raises(ValueError, match="a formula has something else"):
+        value_of(ast.parse(text, mode="eval"), {"u": np.ones(1), "v": np.ones(1)}, NUMBERS)
+
+
+def test_a_surface_with_other_formulas_is_not_certified():
+    """What gives other points than its formulas say is left out, and said."""
+
+    class Bent(Sphere):
+        def points(self, u, v):
+            return super().points(u, v) * (1.0, 1.0, 1.5)
+
+    assert len(surfaces_of(Sphere(1.0))) == 1 and surfaces_of(Bent(1.0)) == ()
+
+
+def test_a_net_that_is_too_coarse_proves_nothing():
+    scene = vp.Scene((vp.Item("BALL", Sphere(1.0)),))
+    drawing = vp.draw(scene, page="30x30")
+    made = certificate(scene, drawing, page="30x30").content
+    assert check(json.loads(json_bytes(drawing)), made)[:2] == ([], [])
+    item = made["items"][0]
+    net = {**item["surfaces"][0], "u": item["surfaces"][0]["u"][::9]}
+    _, unproven, _ = check(json.loads(json_bytes(drawing)), {**made, "items": [{**item, "surfaces": [net]}]})
+    assert unproven[0].startswith("what BALL shows and hides: its net may be")

@@ -18,6 +18,7 @@ import vectorplot as vp
 from vectorplot.cli.commands.accuracy import accuracy
 from vectorplot.cli.commands.animate import animate
 from vectorplot.cli.commands.contact_sheet import contact_sheet
+from vectorplot.cli.commands.develop import develop
 from vectorplot.cli.commands.draw import draw
 from vectorplot.cli.commands.info import info
 from vectorplot.cli.commands.paint import paint
@@ -51,7 +52,7 @@ COMMANDS = [
     if line.startswith("vectorplot ") and "INPUT" not in line and "NAME" not in line
 ]
 
-VERBS = [accuracy, animate, contact_sheet, draw, info, paint, render, replay, sheet, speed, try_]
+VERBS = [accuracy, animate, contact_sheet, develop, draw, info, paint, render, replay, sheet, speed, try_]
 
 FOREIGN = {"--help", "--no-deps", "--hypothesis-profile", "--nthreads"}
 """Options of other programs that pages name, and of all commands."""

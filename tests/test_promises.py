@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from support.line_distances import distances
+from support.pixel_errors import averages, error, outside
 from support.top_fills import fills_of, top_at
 
 import vectorplot as vp
@@ -111,6 +112,23 @@ def test_pixels_get_as_many_samples_as_their_error_wants_and_exact_shadows() -> 
     # Table has no smooth surfaces: half a sample of three.
     fine = vp.render(TABLE, samples=3, shadows="exact", size=(80, 60))
     assert np.array_equal(made.pixels, fine.pixels)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["house", "table", "torus"])
+@pytest.mark.parametrize("off_by", [0.5, 0.25])
+def test_pixels_are_within_the_error_of_a_picture_with_sixty_four_samples(name: str, off_by: float) -> None:
+    said, found = error(vp.read(DATA / f"{name}.scene"), off_by)
+    assert said.name == promises.PROMISE
+    assert found <= off_by
+
+
+def test_a_picture_moved_by_a_pixel_is_told() -> None:
+    fine = np.zeros((64, 64, 3))
+    fine[:, 24:] = 200.0
+    right, moved = averages(fine), averages(np.roll(fine, 8, axis=1))
+    assert outside(right, fine, 0.125) == 0.0
+    assert outside(moved, fine, 0.5) > 0.0 and outside(moved[:, 1:], fine[:, 8:], 1.0) == 0.0
 
 
 def test_what_cannot_be_kept_is_said_with_what_was_reached() -> None:

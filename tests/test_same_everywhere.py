@@ -24,7 +24,10 @@ OF_LAPACK = {"det", "solve", "inv", "pinv", "svd", "eig", "eigh", "eigvals", "ei
 OF_COMPLEX = {"geometry/elementary.py", "surfaces/minimal.py", "io/expressions.py"}
 """Files that call some of them with complex numbers, which the mathematical library computes."""
 
-REPORTS = {"speed/results.py", "accuracy/results.py", "accuracy/of_visibility.py", "testing/check_certificate.py"}
+REPORTS = {
+    *("speed/results.py", "accuracy/results.py", "accuracy/of_visibility.py"),
+    *("testing/check_certificate.py", "testing/certified_image.py", "testing/certified_surfaces.py"),
+}
 """Files that measure times and errors, not pictures; and the checker of certificates, which imports nothing of ours and
 leaves angles within a thousandth of a degree open."""
 

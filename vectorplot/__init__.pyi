@@ -10,6 +10,7 @@ from .features.zero_curves import zero_manifold_of_f_uv
 from .geometry.camera import Camera, Panorama
 from .geometry.mesh import Mesh
 from .geometry.polylines import Strokes
+from .pictures.development import development
 from .pictures.draw import draw
 from .pictures.film import Film, animate
 from .pictures.paint import paint
@@ -47,6 +48,7 @@ from .scene.page import Page
 from .scene.plots import graph, surface, tube
 from .scene.scene import Scene
 from .scene.surface_lines import Section, SurfaceLines
+from .scene.united import united
 from .shading.image import Image
 from .viewer.notebook import show
 from .words import LineKind
@@ -98,6 +100,7 @@ __all__ = [
     "chamfer",
     "contact_sheet",
     "cut",
+    "development",
     "diameter",
     "dimension",
     "draw",
@@ -123,5 +126,6 @@ __all__ = [
     "threaded_hole",
     "tube",
     "turntable",
+    "united",
     "zero_manifold_of_f_uv",
 ]

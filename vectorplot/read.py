@@ -10,18 +10,25 @@ from vectorplot.scene.scene import Scene
 
 
 def read(
-    path: str | os.PathLike[str], *, exaggeration: float | None = None, molecules: str | None = None
+    path: str | os.PathLike[str],
+    *,
+    exaggeration: float | None = None,
+    tolerance: float | None = None,
+    molecules: str | None = None,
 ) -> Scene | Any:
     """The scene in a file, or the drawing that `save` wrote into one.
 
     Parameters
     ----------
     path : str or path
-        A mesh (obj, stl, ply, off, glb, vtk, vtu), a molecule (xyz, pdb, cif), a terrain (asc, xyz), a drawing (json),
-        or a text in the scene language (any other suffix).
+        A mesh (obj, stl, ply, off, glb, vtk, vtu), parts of a CAD system (step, iges, brep), a molecule (xyz, pdb,
+        cif), a terrain (asc, xyz), a drawing (json), or a text in the scene language (any other suffix).
     exaggeration : float, optional
         What heights of a terrain are multiplied with. Where None they are left as they are, unless they would be seen
         as a plain or a needle: then they are made 1, 2 or 5 times a power of ten higher, and a warning says so.
+    tolerance : float, optional
+        How far the edges of parts of a CAD system may be off, as a part of the diagonal of the box around all of them
+        (None: 0.00005, as much as 0.02 mm on a page A4).
     molecules : str, optional
         How a molecule is shown: ball-and-stick (where None), space-filling, tube or ribbon; see `io.molecule_scene`.
 
@@ -34,7 +41,7 @@ def read(
     ------
     InputError
         One line with the file, the line where there is one, and the cause; for an exaggeration of what is no terrain,
-        and for a style of molecules of what is none.
+        a tolerance that is not positive, and a style of molecules of what is none.
     OSError
         For a drawing that cannot be opened.
 
@@ -58,4 +65,4 @@ def read(
         return read_drawing(path)
     from vectorplot.io.read_file import read as read_file
 
-    return read_file(path, exaggeration=exaggeration, molecules=molecules)
+    return read_file(path, exaggeration=exaggeration, tolerance=tolerance, molecules=molecules)

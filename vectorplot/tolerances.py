@@ -24,6 +24,18 @@ VERTICAL_SINE = 1e-15
 """A line of sight whose horizontal part is no longer is vertical: a few roundings of a unit vector, as a camera that
 looks down has azimuth 0 only then."""
 
+TRUE_NORMAL_SINE = 1e-7
+"""Normals that a CAD system tells are wrong by less: a face that makes a smaller angle with the view is seen edge-on.
+Its surfaces are no farther apart at common edges than a ten millionth of their size."""
+
+NO_CAD_NORMAL = 1e-6
+"""Where both parameter lines of a face of a part span an area no larger than this part of what the longest ones of the
+face could, its surface has no normal there: at the tip of a cone, the pole of a ball."""
+
+SEWN_OF_EXTENT = 1e-5
+"""Faces of a file without solids are joined along edges that are no farther apart than this part of all of it: a
+hundredth of a millimetre of a metre, as systems for surfaces have it."""
+
 NO_AZIMUTH_SINE = 1e-6
 """Near the zenith, below this sine, an azimuth has so few digits that the up vector says how a picture stands."""
 
@@ -72,6 +84,9 @@ NO_NORMAL = 1e-9
 
 WHOLE_TURN = 1e-9
 """An arc that turns by a whole turn but for so many radians is the whole ellipse."""
+
+STRAIGHT_TURN = 1e-6
+"""A polygon that turns by fewer radians at a corner goes straight on there: no circle has corners so close."""
 
 LOOP_TURN = 1e-6
 """Angles seen from the middle of a loop add up to a whole turn but for so many radians; anything else is off by a
@@ -378,6 +393,25 @@ UNITED_OF_EXTENT = 1e-12
 """Part of the largest coordinate that the meshes of a grid have on which regions are united where floating numbers do
 not lead to a union: a few thousand of their last digits."""
 
+DEVELOPABLE_ANGLE = 1e-6
+"""A surface is developable where its tangent plane turns by no more along its straight lines, as a sine, and these are
+no less straight: unrolled, lengths of it change by the square of that."""
+
+UNROLLED_OF_LENGTH = 1e-12
+"""Part of a development by which points may move when it is integrated in steps half as long: then it is found."""
+
+SAME_SCORE = 1e-9
+"""Two nets of a body are as good as each other where what is to be cut of them, as a part of all edges, differs by
+less: the one found first is taken."""
+
+UNITED_GRID_OF_ZERO = 2.0**-6
+"""Part of the distance that counts as zero that the meshes of the grid have on which faces of bodies are united: far
+finer than what is one point, so that what two planes make of a point is one however flat they meet."""
+
+SAME_POINT_OF_ZERO = 4.0
+"""Corners of a union of bodies so many times nearer than what counts as zero are one: each is off by up to that, in
+the plane it was found in."""
+
 
 # Lengths as parts of other lengths: of a chord, a cell, a stroke, a tolerance, a step.
 
@@ -388,6 +422,10 @@ matter."""
 ARC_OF_TOLERANCE = 1e-3
 """An arc of an ellipse is one only if all points agree within this part of the tolerance: what was an arc agrees to
 rounding, and what merely resembles one does not."""
+
+ONE_CIRCLE_OF_RADIUS = 1e-3
+"""Circles through three neighbouring corners each, whose middles are no farther apart than this part of their radius,
+are perhaps one: points in a row that pass are looked at as a whole."""
 
 CUBIC_OF_TOLERANCE = 1e-4
 """Neighbouring Bézier curves that are exact become one where all control points agree within this part of the
@@ -956,6 +994,18 @@ and what they settle changes by as little."""
 SAME_SHADE = 1e-9
 """Shades of one point, found from two triangles at it, differ by rounding only below this part of a palette; those on
 two sides of a sharp edge by much more."""
+
+SAME_NORMAL = 1e-4
+"""Normals at one corner of facets, interpolated on each of these, differ by rounding only below this; those on two
+sides of a sharp edge by much more."""
+
+SHADOW_CORNER_MM = 1e-4
+"""Corners of shadows on neighbouring facets are one if they are in one cell of this size on the page: a hundredth of
+what is written. They differ by a few tolerances of the view, thousands of times less."""
+
+SAME_AREA = 1e-9
+"""Shadows cover a facet if their areas add up to its own but for such a part: rounding leaves a thousandth of it, and
+such as overlap, or leave some of the facet free, differ by more."""
 
 UNSOLVED = 1e12
 """Control points this many times as far out as the points of a spline are none: the equations have no solution."""

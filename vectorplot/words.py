@@ -152,6 +152,8 @@ class LineKind(IntEnum):
     """A line along which parts were moved apart."""
     OUTLINE = 22
     """A closed path around all that things cover of the page together, or around a hole in it."""
+    TANGENT = 23
+    """An edge at which two faces of a part from a CAD system meet without a crease."""
 
     @property
     def word(self) -> str:

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import time
+from dataclasses import replace
 
 import numpy as np
 import pytest
+from bench.bench_many_surfaces import heap, ring
 
 from vectorplot.drawing.drawing import Drawing, Layer, Pen
 from vectorplot.drawing.fills import Fills
+from vectorplot.pictures.paint import paint
 from vectorplot.save import write
 
 pytestmark = pytest.mark.bench
@@ -74,3 +77,13 @@ def test_other_formats(format):
 @pytest.mark.parametrize("format", ["svg", "ps", "pdf", "png"])
 def test_large_shaded_triangles(format):
     assert seconds_of(smooth_graph(60), format) < 4.0
+
+
+def test_a_heap_of_rings_in_bands():
+    """Bytes and seconds of the processor: in bands, and with a gradient a triangle."""
+    scene, camera = heap(20, ring)
+    for some in (scene, replace(scene, items=tuple(replace(item, group="ALL") for item in scene.items))):
+        start = time.process_time()
+        size = len(write(paint(some, camera), "svg"))
+        print(f"\n20 rings: {time.process_time() - start:.1f} s, {size / 1e6:.1f} MB", end="")
+        assert size < 14e6

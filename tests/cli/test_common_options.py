@@ -32,13 +32,13 @@ PARAMS = {verb.name: {param.name: param for param in verb.params} for verb in VE
 CAMERA_VERBS = [verb for verb in VERBS if "eye" in PARAMS[verb.name]]
 SHARED = sorted(name for name in set(chain(*PARAMS.values())) if sum(name in params for params in PARAMS.values()) > 1)
 
-MEANING = {"out", "lines", "crease_angle_deg", "shadows", "fit", "page", "title", "frame"}
+MEANING = {"out", "lines", "crease_angle_deg", "shadows", "fit", "page", "title", "frame", "scale"}
 """Options whose help says what they are to the verb."""
 
 WORDS = {"format_", "shadows", "page"}
 """Options whose choice of words is the verb's: a sheet turns a page that is only named."""
 
-DEFAULTS = {"lines", "page"}
+DEFAULTS = {"lines", "page", "scale"}
 """Options whose default is the verb's."""
 
 
@@ -54,7 +54,7 @@ def definitions(name):
 
 
 def test_the_verbs_that_make_pictures_are_these():
-    assert set(PARAMS) == {"draw", "paint", "render", "sheet", "contact-sheet"}
+    assert set(PARAMS) == {"draw", "paint", "render", "sheet", "contact-sheet", "develop"}
     assert {verb.name for verb in CAMERA_VERBS} == {"draw", "paint", "render"}
     assert {"scene_file", "out", "eye", "view", "page", "fit", "lines", "tolerance_mm", "budget", "quiet"} <= set(
         SHARED

@@ -87,8 +87,12 @@ def test_a_moebius_band_is_kept_and_said(tmp_path: Path) -> None:
     ("name", "content", "cause"),
     [
         ("empty.obj", "", "the file is empty"),
-        ("shape.step", "ISO-10303-21;", "a STEP file, which is not read; export it as stl, obj, ply, off or glb"),
-        ("shape", "ISO-10303-21;", "a STEP file, which is not read"),
+        ("shape", "ISO-10303-21;", "a STEP file, which is not read; give its name the suffix .step"),
+        (
+            "shape.fcstd",
+            "PK\x03\x04",
+            "a FreeCAD document, which is not read; export it as step",
+        ),
         ("shape.SCAD", "cube([1,2,3]);", "an OpenSCAD program, which is not read"),
         (
             "turn.anim",

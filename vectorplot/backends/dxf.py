@@ -14,9 +14,9 @@ from vectorplot.arrays import Bools, Floats
 from vectorplot.backends.page import Areas, Ink, PageMarks, PageStrokes, PageTexts, page_marks
 from vectorplot.drawing.drawing import Drawing
 from vectorplot.geometry import ragged
-from vectorplot.geometry.elementary import arctan2
+from vectorplot.geometry.elementary import arctan2, tan
 from vectorplot.scene.labels import TYPE_SIZE
-from vectorplot.tolerances import COINCIDENT_MM, WHOLE_TURN
+from vectorplot.tolerances import COINCIDENT_MM, LEAST_DIVISOR, WHOLE_TURN
 
 if TYPE_CHECKING:
     from ezdxf.document import Drawing as Document
@@ -25,6 +25,9 @@ if TYPE_CHECKING:
 
 # The widths in hundredths of a mm that the format has.
 _WIDTHS = (0, 5, 9, 13, 15, 18, 20, 25, 30, 35, 40, 50, 53, 60, 70, 80, 90, 100, 106, 120, 140, 158, 200, 211)
+
+ROUNDED_MM = 1.0 / 1000.0
+"""What places on the page are rounded to."""
 
 _FORBIDDEN = str.maketrans(dict.fromkeys('<>/\\":;?*|=`', "_"))
 
@@ -100,12 +103,42 @@ def _strokes(space: Modelspace, lines: PageStrokes, layer: str) -> None:
     for (begin, end), (closed, curved, bent), arc in rows:
         if arc >= 0:
             _arc(space, lines, arc, own)
+        elif bent and (bulges := _bulges(points[begin:end])) is not None:
+            corners = np.column_stack([points[begin:end:3], np.append(bulges, 0.0)])[: -1 if closed else None]
+            space.add_lwpolyline(corners.tolist(), format="xyb", close=closed, dxfattribs=own)
         elif bent:
             _spline(space, points[begin:end], closed, own)
         elif curved:
             space.add_lwpolyline(points[[begin, end - 1]].tolist(), dxfattribs=own)
         else:
             space.add_lwpolyline(points[begin:end].tolist(), close=closed, dxfattribs=own)
+
+
+def _bulges(control: Floats) -> Floats | None:
+    """(s,) the bulges of the segments of a Bézier path, tangents of a quarter of their turns, where all of them are
+    straight lines and arcs of circles within the rounding of the page; else None."""
+    first, last = control[:-1:3], control[3::3]
+    ahead, back = control[1::3] - first, last - control[2::3]
+    chord = last - first
+    length = np.hypot(*chord.T)
+    half = arctan2(_crossed(ahead, chord), (ahead * chord).sum(axis=1))
+    straight = np.abs(_crossed(ahead, chord)) + np.abs(_crossed(back, chord)) <= 2.0 * ROUNDED_MM * length
+    half = np.where(straight, 0.0, half)
+    # Handles of an arc with this turn, as they would be.
+    handle = length / (3.0 * np.maximum(np.cos(half / 2.0) ** 2, LEAST_DIVISOR))
+    cosine, sine = np.cos(half), np.sin(half)
+    x, y = chord.T / np.maximum(length, LEAST_DIVISOR)
+    begin = handle[:, None] * np.stack([cosine * x + sine * y, cosine * y - sine * x], axis=1)
+    end = handle[:, None] * np.stack([cosine * x - sine * y, cosine * y + sine * x], axis=1)
+    off = np.maximum(np.abs(begin - ahead), np.abs(end - back)).max(axis=1)
+    if not (straight | (off <= 4.0 * ROUNDED_MM)).all():
+        return None
+    return np.asarray(tan(half / 2.0))
+
+
+def _crossed(a: Floats, b: Floats) -> Floats:
+    """(n,) the areas between vectors (n,2)."""
+    return np.asarray(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
 
 
 def _are_straight(lines: PageStrokes) -> Bools:

@@ -176,10 +176,10 @@ def inputs_of(named: Sequence[str]) -> tuple[str, ...]:
 
 
 def _holds_shapes(path: Path) -> bool:
-    from vectorplot.io.read_file import MOLECULE_SUFFIXES, TERRAIN_SUFFIXES
+    from vectorplot.io.read_file import CAD_SUFFIXES, MOLECULE_SUFFIXES, TERRAIN_SUFFIXES
     from vectorplot.io.read_mesh import MESH_SUFFIXES
 
-    return path.suffix.lower() in (".scene", *MESH_SUFFIXES, *MOLECULE_SUFFIXES, *TERRAIN_SUFFIXES)
+    return path.suffix.lower() in (".scene", *MESH_SUFFIXES, *CAD_SUFFIXES, *MOLECULE_SUFFIXES, *TERRAIN_SUFFIXES)
 
 
 def out_names(inputs: Sequence[str], folder: Path, format_: str) -> dict[str, str]:
@@ -217,6 +217,7 @@ def _tasks(verb: str, params: Mapping[str, Any], outs: Mapping[str, str]) -> Ite
 def files_of(names: Sequence[str]) -> tuple[Path, ...]:
     """Those of the names that are files, and all files that the texts among them name in quotes; the files' own places
     are where these names begin."""
+    from vectorplot.io.read_file import CAD_SUFFIXES
     from vectorplot.io.read_mesh import MESH_SUFFIXES
 
     found: dict[Path, None] = {}
@@ -227,7 +228,7 @@ def files_of(names: Sequence[str]) -> tuple[Path, ...]:
             if path in found or not path.is_file():
                 continue
             found[path] = None
-            if path.suffix.lower() not in MESH_SUFFIXES:
+            if path.suffix.lower() not in (*MESH_SUFFIXES, *CAD_SUFFIXES):
                 text = path.read_text(encoding="utf-8", errors="replace")
                 waiting += [path.parent / name for name in dict.fromkeys(_QUOTED.findall(text))]
         except (OSError, ValueError):

@@ -6,6 +6,7 @@ import math
 import os
 import warnings
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, fields, replace
 from functools import partial, reduce, wraps
 from pathlib import Path
@@ -40,6 +41,7 @@ from vectorplot.cli.option_values import (
     point,
     said_or_none,
     style,
+    tiles,
     upwards,
 )
 from vectorplot.cli.picture import (
@@ -68,7 +70,7 @@ if TYPE_CHECKING:
     from vectorplot.shading.image import Image
 
 
-# Options that cut what is shown, or move its parts apart.
+# Options that cut what is shown, move its parts apart, or make them one.
 
 
 def cut_text(text: str) -> str:
@@ -135,6 +137,7 @@ CUT_OPTIONS = (
     CUT_SPACING,
     click.option("--cut-angle", type=number, default=45.0, metavar="DEG", help="Of these strokes, from what is level."),
     EXPLODE,
+    click.option("--union", is_flag=True, help="Solids that touch or overlap, and look alike, are one body."),
 )
 
 
@@ -155,7 +158,7 @@ def moved_apart(scene: Scene, asked: Sequence[Apart]) -> Scene:
 
 @dataclass(frozen=True)
 class CutOptions:
-    """The cuts that the user asked for, and how parts are moved apart."""
+    """The cuts that the user asked for, how parts are moved apart, and whether those that touch are one."""
 
     cut: tuple[str, ...] = ()
     cut_away: str = "gone"
@@ -163,6 +166,7 @@ class CutOptions:
     cut_spacing: float | None = None
     cut_angle: float = 45.0
     explode: tuple[Apart, ...] = ()
+    union: bool = False
 
     @classmethod
     def of(cls, options: Mapping[str, Any]) -> CutOptions:
@@ -173,6 +177,10 @@ class CutOptions:
         """The scene with these cuts. Errors: InputError for unknown colours."""
         from vectorplot.scene.cuts import Cut
 
+        if self.union:
+            from vectorplot.scene.united import united
+
+            scene = united(scene)
         scene = moved_apart(scene, self.explode)
         spelled = partial(Cut.of, away=self.cut_away, colour=self.cut_colour)
         hatched = partial(spelled, spacing_mm=self.cut_spacing, angle_deg=self.cut_angle)
@@ -754,6 +762,13 @@ PROMISES = (
 )
 """An error or a time that a picture keeps."""
 
+UNIT = click.option(
+    "--unit",
+    type=click.Choice(["mm", "cm", "m", "in"]),
+    default="mm",
+    help="What a unit of the part is; all other lengths are in mm whatever it is.",
+)
+
 TITLE = click.option("--title", default="", metavar="TEXT", show_default=False, help="Letters in the lower margin.")
 
 FRAME = click.option("--frame", is_flag=True, help="A rectangle in the margin.")
@@ -886,6 +901,24 @@ class Told:
         page = {} if self.page is None else {"page": page_from(self.page, scene)}
         return {"camera": camera, **page, **self.rest}
 
+    @property
+    def fineness(self) -> float | None:
+        """How far parts of CAD systems may be off, as part of their extent: as far as the picture may, where they fill
+        its page; None for pictures of pixels."""
+        from vectorplot.scene.scene import Scene
+
+        if self.page is None or "tolerance_mm" not in self.rest:
+            return None
+        page, allowed = page_from(self.page, Scene(())), self.rest["tolerance_mm"]
+        if self.rest.get("off_by") is not None:
+            from vectorplot.errors import InputError
+            from vectorplot.pictures.promises import off_by_of
+
+            # What is no error to keep, the verb itself says.
+            with suppress(InputError):
+                allowed = off_by_of(self.rest["off_by"], "mm", "shades").get("mm", allowed)
+        return float(allowed / math.hypot(page.width_mm, page.height_mm))
+
     def with_lines(self, scene: Scene) -> tuple[Scene, dict[str, Any]]:
         """A scene with the lines and the cuts that the user asked for, and the keywords of the verb's function, which
         draws them."""
@@ -945,7 +978,7 @@ def _proof(params: Mapping[str, Any], told: Told, source: Source) -> Companion:
     return Companion("certificate", path, content)
 
 
-def _tiles(params: Mapping[str, Any], format_: str) -> list[Companion]:
+def tiles_beside(params: Mapping[str, Any], format_: str) -> list[Companion]:
     """The sheets that a large page is cut into, a file each. Errors: bad usage for a picture that goes to stdout."""
     columns, rows = params["tiles"]
     out = Path(params["out"])
@@ -1000,10 +1033,11 @@ def picture_verb(
                 warn_of_nothing(source, made, lambda: _why_nothing(verb.__name__, lined, keywords))
                 return made
 
-            source = Source(params["scene_file"], params["exaggeration"], told.camera.says_where(), params["molecules"])
+            upright, fineness = told.camera.says_where(), told.fineness
+            source = Source(params["scene_file"], params["exaggeration"], upright, fineness, params["molecules"])
             said = {"source": source, "format_": written, "picture": picture, "jobs": jobs, "overlaid": overlaid}
             beside = [] if params.get("certificate") is None else [_proof(params, told, source)]
-            beside += [] if params.get("tiles") is None else _tiles(params, written)
+            beside += [] if params.get("tiles") is None else tiles_beside(params, written)
             return {**said, "beside": beside} if beside else said
 
         def content(params: Mapping[str, Any]) -> bytes:
@@ -1177,6 +1211,21 @@ HALO = click.option(
     default=0.0,
     metavar="MM",
     help="Gap beside lines that lie in front.",
+)
+
+SHORTEST = click.option(
+    "--shortest",
+    "shortest_mm",
+    type=of_option("shortest_mm"),
+    metavar="MM",
+    help="Shorter strokes of lines are left out.  [default: none, of drawings those below 0.05 that are alone]",
+)
+
+TILES = click.option(
+    "--tiles",
+    type=tiles,
+    metavar="CxR",
+    help="Also the page in C x R parts, with registration marks, as OUT-ROW-COLUMN.",
 )
 
 LAYERS = click.option(

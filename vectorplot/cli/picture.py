@@ -186,13 +186,14 @@ def kept_promise(
 
 @dataclass(frozen=True)
 class Source:
-    """The files that a picture is made of; exaggeration: of the heights of a terrain, molecules: their
-    style, None for the usual ones; upright:
-    the user has said where one looks from, or what is up."""
+    """The files that a picture is made of; exaggeration: of the heights of a terrain, None for the usual one; upright:
+    the user has said where one looks from, or what is up; tolerance: of parts of CAD systems, and molecules: their
+    style, as in vectorplot.read."""
 
     paths: tuple[str, ...]
     exaggeration: float | None = None
     upright: bool = False
+    tolerance: float | None = None
     molecules: str | None = None
 
     @property
@@ -206,7 +207,10 @@ class Source:
         from vectorplot.io.read_file import read_named
         from vectorplot.scene.scene import together
 
-        scenes = [read_named(path, exaggeration=self.exaggeration, molecules=self.molecules) for path in self.paths]
+        reading = partial(
+            read_named, exaggeration=self.exaggeration, tolerance=self.tolerance, molecules=self.molecules
+        )
+        scenes = [reading(path) for path in self.paths]
         for path, scene in zip(self.paths, scenes, strict=True):
             told = None if self.upright else up_axis_hint(path, scene)
             if told is not None:

@@ -16,6 +16,7 @@ COMMANDS = {
     "info": "info",
     "render": "render",
     "sheet": "sheet",
+    "develop": "develop",
     "contact-sheet": "contact_sheet",
     "animate": "animate",
     "replay": "replay",

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from vectorplot.arrays import Floats, Ints
 from vectorplot.errors import InputError
+from vectorplot.geometry import ragged
 from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, joined, take
 
 Colours = NDArray[np.uint8]
@@ -201,3 +202,27 @@ class Fills:
         which (k,): numbers from 0, each one as often as wanted; result: k polygons.
         """
         return take(self, which)
+
+    def in_triangles(self) -> Fills:
+        """The same picture, with the triangles of their fans in place of shaded polygons.
+
+        result: flat polygons, and shaded ones of three corners.
+        """
+        first = self.offsets[:-1]
+        differs = (self.colours != np.repeat(self.colours[first], np.diff(self.offsets), axis=0)).any(axis=1)
+        shaded = np.zeros(len(self), dtype=np.bool_)
+        shaded[ragged.owner(np.diff(self.offsets))[differs]] = True
+        plain, fan = self.take(np.flatnonzero(~shaded)), self.take(np.flatnonzero(shaded))
+        corners, of = ragged.fans(fan.offsets)
+        at = corners.ravel()
+        triangles = Fills(
+            fan.points[at],
+            3 * np.arange(len(of) + 1),
+            fan.colours[at],
+            fan.opacity[of],
+            fan.item[of],
+            fan.points3d[at],
+            fan.kind[of],
+        )
+        number = np.concatenate([np.flatnonzero(~shaded), np.flatnonzero(shaded)[of]])
+        return Fills.joined(plain, triangles).take(np.argsort(number, kind="stable"))

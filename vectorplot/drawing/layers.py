@@ -38,6 +38,7 @@ PENS = {
     "ghost": Pen(0.13, BLACK),
     "trace": Pen(0.13, BLACK),
     "outline": Pen(0.5, BLACK),
+    "tangent": Pen(0.13, BLACK),
 }
 """The pens of layers by kind, as a draughtsman would choose them."""
 
@@ -65,6 +66,7 @@ KIND_LAYER = {
     LineKind.GHOST: "ghost",
     LineKind.TRACE: "trace",
     LineKind.OUTLINE: "outline",
+    LineKind.TANGENT: "tangent",
 }
 
 COLOURS = {

@@ -215,14 +215,18 @@ def one_for_each_pen(layers: Sequence[Layer]) -> tuple[Layer, ...]:
     """A layer for each pen, named after its width and colour, with all that it draws in these layers, texts behind the
     strokes; in the order in which pens are first needed.
 
-    Edge cases: layers that are not plotted or have filled polygons stay as they are, empty ones are left out; pens of
-    other dashes are other pens, and those that agree in three digits of their widths one.
+    Edge cases: layers that are not plotted stay as they are, and so do filled polygons, in layers of their own; empty
+    ones are left out; pens of other dashes are other pens, and those that agree in three digits of their widths one.
     """
     parts: dict[str, list[Layer]] = {}
     for number, layer in enumerate(layers):
-        if layer.fills or not layer.plotted:
+        if not layer.plotted:
             parts[f"{number}"] = [layer]
-        elif any(map(len, layer.marks)):
+            continue
+        if layer.fills:
+            parts[f"{number}"] = [replace(layer, marks=layer.fills)]
+            layer = replace(layer, marks=(*layer.strokes, *layer.texts))
+        if any(map(len, layer.marks)):
             parts.setdefault(_told(layer.pen) + str(layer.pen.dash_mm or ""), []).append(layer)
     return tuple(same[0] if same[0].fills or not same[0].plotted else _together(same) for same in parts.values())
 

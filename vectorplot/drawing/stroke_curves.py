@@ -16,9 +16,15 @@ from vectorplot.drawing.strokes import chosen, concatenated
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
 from vectorplot.geometry.elementary import arctan2
-from vectorplot.geometry.polylines import joined, segments, take
+from vectorplot.geometry.polylines import joined, segments, take, with_points
 from vectorplot.geometry.vectors import norm
-from vectorplot.tolerances import ARC_OF_TOLERANCE, CUBIC_OF_TOLERANCE, WHOLE_TURN
+from vectorplot.tolerances import (
+    ARC_OF_TOLERANCE,
+    CUBIC_OF_TOLERANCE,
+    ONE_CIRCLE_OF_RADIUS,
+    STRAIGHT_TURN,
+    WHOLE_TURN,
+)
 
 # Strokes of which every chord is known to be a Bézier curve, as few such curves.
 
@@ -311,12 +317,16 @@ def _in_places(parts: tuple[BezierPaths, ...], strokes: tuple[Ints, ...], paths:
 FEWEST_SIDES = 12
 """Of a polygon that is taken for a whole circle; an arc has as many in proportion. Nuts and other prisms have fewer."""
 
+LONGEST_CHORD = 1.5
+"""Of a polygon that stands for an arc, as a part of the longer one of its neighbours."""
+
 ON_ARC = 0.1
 """The part of the tolerance by which corners may be off the arc."""
 
 
 def with_round_polygons(layers: Iterable[Layer], tolerance_mm: float) -> tuple[Layer, ...]:
-    """The layers, strokes of which are arcs of circles and ellipses where they are polygons that stand for such.
+    """The layers, strokes of which are arcs of circles and ellipses where they are polygons that stand for such, and
+    straight lines and arcs of circles in turn where they are polygons of both.
 
     Parameters
     ----------
@@ -338,7 +348,10 @@ def with_round_polygons(layers: Iterable[Layer], tolerance_mm: float) -> tuple[L
     return tuple(
         replace(
             layer,
-            marks=tuple(_rounded(mark, tolerance_mm) if isinstance(mark, STROKES) else mark for mark in layer.marks),
+            marks=tuple(
+                _with_arc_runs(_rounded(mark, tolerance_mm), tolerance_mm) if isinstance(mark, STROKES) else mark
+                for mark in layer.marks
+            ),
         )
         for layer in layers
     )
@@ -347,7 +360,7 @@ def with_round_polygons(layers: Iterable[Layer], tolerance_mm: float) -> tuple[L
 def rounding_error_mm(layers: Iterable[Layer]) -> float | None:
     """How far arcs leave the sides of the polygons that stand for them, at most; None without such arcs."""
     marks = (mark for layer in layers for mark in layer.marks if isinstance(mark, CurvedStrokes))
-    found = [mark.beziers.error[mark.arcs.stroke][~mark.paths.smooth[mark.arcs.stroke]] for mark in marks]
+    found = [mark.beziers.error[~mark.paths.smooth & (np.diff(mark.beziers.offsets) > 0)] for mark in marks]
     errors = np.concatenate([np.zeros(0), *found])
     return float(errors.max()) if len(errors) else None
 
@@ -373,6 +386,100 @@ def _rounded(mark: Paths | CurvedStrokes, tolerance_mm: float) -> Paths | Curved
     beziers = _in_places((take(drawn.beziers, known), round_ones), (known, arcs.stroke), paths)
     every = EllipseArcs.joined((drawn.arcs, arcs))
     return CurvedStrokes(paths, beziers, every.take(np.argsort(every.stroke, kind="stable")))
+
+
+# Strokes of straight lines and arcs of circles in turn: slots, rounded corners, keyways.
+
+
+def _with_arc_runs(mark: Paths | CurvedStrokes, tolerance_mm: float) -> Paths | CurvedStrokes:
+    """The mark with strokes as Bézier curves where some of their points in a row lie on a circle; others stay."""
+    drawn = one_mark((mark,))
+    paths, near = drawn.paths, ON_ARC * tolerance_mm
+    plain = ~paths.smooth & (np.diff(drawn.beziers.offsets) == 0) & (np.diff(paths.offsets) > 2)
+    which = np.flatnonzero(plain)
+    if not len(which):
+        return mark
+    some = chosen(paths, which)
+    same = _on_one_circle(some.points, some.offsets, some.closed)
+    inner = same | same[ragged.preceding(some.offsets)]
+    kept = np.logical_or.reduceat(inner, some.offsets[:-1])
+    which, some = which[kept], chosen(some, np.flatnonzero(kept))
+    if not len(which):
+        return mark
+    # Loops begin where no run goes on.
+    inner = inner[np.repeat(kept, np.diff(chosen(paths, np.flatnonzero(plain)).offsets))]
+    sizes = np.diff(some.offsets)
+    number = np.where(inner, sizes.max(), ragged.place(sizes))
+    start = np.where(some.closed, np.minimum(np.minimum.reduceat(number, some.offsets[:-1]), sizes - 1), 0)
+    count = sizes + some.closed
+    place = (ragged.place(count) + np.repeat(start, count)) % np.repeat(sizes, count)
+    points, offsets = some.points[np.repeat(some.offsets[:-1], count) + place], ragged.offsets(count)
+    same = _on_one_circle(points, offsets, np.zeros(len(some), dtype=np.bool_))
+    first = np.flatnonzero(same & ~np.concatenate([[False], same[:-1]]))
+    last = np.flatnonzero(same & ~np.concatenate([same[1:], [False]]))
+    # A run of points on one circle reaches from the one before the first of them to the one behind the last.
+    begin, length = first - 1, last - first + 4
+    run_offsets = ragged.offsets(length)
+    run_points = points[ragged.ranges(begin, length)]
+    arcs = recognised_arcs(run_points, run_offsets, np.zeros(len(first), dtype=np.bool_), tolerance=near)
+    arcs = _circles(arcs, near)
+    arcs = arcs.take(np.abs(norm(arcs.first) - norm(arcs.second)) <= near)
+    if not len(arcs):
+        return mark
+    curves = arc_segments(arcs, np.zeros(len(arcs), dtype=np.bool_), tolerance=FIT_SHARE * tolerance_mm)
+    begin, length = begin[arcs.stroke], length[arcs.stroke]
+    covered = np.zeros(len(points), dtype=np.bool_)
+    covered[ragged.ranges(begin, length - 1)] = True
+    covered[offsets[1:] - 1] = True
+    straight = np.flatnonzero(~covered)
+    ends = np.stack([points[straight], points[straight + 1]], axis=1)
+    thirds = ends[:, :1] + np.array([0.0, 1.0, 2.0, 3.0])[None, :, None] / 3.0 * (ends[:, 1:] - ends[:, :1])
+    pieces = np.diff(curves.offsets)
+    control = np.concatenate([thirds, curves.control])
+    at = np.concatenate([straight, np.repeat(begin, pieces)])
+    order = np.lexsort((np.concatenate([np.zeros(len(straight), dtype=np.intp), ragged.place(pieces)]), at))
+    stroke = np.searchsorted(offsets, at[order], side="right") - 1
+    has_arc = np.isin(np.arange(len(some)), np.searchsorted(offsets, begin, side="right") - 1)
+    control, stroke = control[order][has_arc[stroke]], stroke[has_arc[stroke]]
+    own = np.flatnonzero(has_arc)
+    off = np.zeros(len(some))
+    of_arc = np.searchsorted(offsets, begin, side="right") - 1
+    widest = np.abs(arcs.end - arcs.start) / (length - 1)
+    np.maximum.at(off, of_arc, curves.error + norm(arcs.first) * (1.0 - np.cos(widest / 2.0)) + near)
+    per_stroke = np.bincount(stroke, minlength=len(some))[own]
+    mixed = BezierPaths(control, ragged.offsets(per_stroke), some.closed[own], off[own])
+    shift = np.zeros(len(paths), dtype=np.intp)
+    shift[which[own]] = start[own]
+    sizes = np.diff(paths.offsets)
+    place = (ragged.place(sizes) + np.repeat(shift, sizes)) % np.repeat(sizes, sizes)
+    paths = with_points(paths, np.repeat(paths.offsets[:-1], sizes) + place, np.arange(len(paths)), paths.offsets)
+    known = np.flatnonzero(np.diff(drawn.beziers.offsets))
+    beziers = _in_places((take(drawn.beziers, known), mixed), (known, which[own]), paths)
+    return CurvedStrokes(paths, beziers, drawn.arcs)
+
+
+def _on_one_circle(points: Floats, offsets: Ints, closed: Bools) -> Bools:
+    """(p,) whether the circle through a point of polygons (p,2) and its neighbours is, roughly, that of the point after
+    it, and both turn by a twelfth of a circle at most."""
+    before, after = ragged.preceding(offsets), ragged.following(offsets)
+    back, ahead = points[before] - points, points[after] - points
+    double = 2.0 * (back[:, 0] * ahead[:, 1] - back[:, 1] * ahead[:, 0])
+    turn = arctan2(-0.5 * double, -(back * ahead).sum(axis=1))
+    sound = (np.abs(turn) <= 2.0 * np.pi / FEWEST_SIDES + WHOLE_TURN) & (np.abs(turn) > STRAIGHT_TURN)
+    ends = np.flatnonzero(~closed)
+    sound[offsets[:-1][ends]] = sound[offsets[1:][ends] - 1] = False
+    squares = (back * back).sum(axis=1), (ahead * ahead).sum(axis=1)
+    safe = np.where(sound, double, 1.0)
+    x = (ahead[:, 1] * squares[0] - back[:, 1] * squares[1]) / safe
+    y = (back[:, 0] * squares[1] - ahead[:, 0] * squares[0]) / safe
+    arm = np.stack([x, y], axis=1)
+    centre, radius = points + arm, norm(arm)
+    # A side of a twelfth of the circle at most.
+    sound &= np.maximum(*squares) <= (2.0 * radius * np.sin(np.pi / FEWEST_SIDES) * (1.0 + WHOLE_TURN)) ** 2
+    same = sound & sound[after] & (turn * turn[after] > 0.0)
+    # Between two arcs that are mirror images a straight line is a chord of a large circle through their ends.
+    same &= squares[1] <= LONGEST_CHORD**2 * np.maximum(squares[0], squares[1][after])
+    return np.asarray(same & (norm(centre - centre[after]) <= ONE_CIRCLE_OF_RADIUS * radius))
 
 
 def _widest_steps(paths: Paths, arcs: EllipseArcs) -> Floats:

@@ -72,6 +72,14 @@ class Texts:
             tuple(word for part in every for word in part.in_latex),
         )
 
+    def take(self, which: Ints) -> Texts:
+        """The texts with these numbers (k,), in this order."""
+        numbers = which.tolist()
+        return Texts(
+            tuple(self.strings[k] for k in numbers), self.points[which], self.size_mm[which], self.turn_deg[which],
+            self.anchor[which], self.room_mm[which], self.hidden_by[which], tuple(self.in_latex[k] for k in numbers),
+        )  # fmt: skip
+
     @property
     def in_latex(self) -> tuple[str, ...]:
         """LaTeX's word for the size of every line, empty where it has none."""

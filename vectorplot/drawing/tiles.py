@@ -9,10 +9,16 @@ import numpy as np
 
 from vectorplot.arrays import Floats
 from vectorplot.drawing.drawing import CurvedStrokes, Drawing, Layer, Paths, Pen
+from vectorplot.drawing.fills import Fills
 from vectorplot.drawing.finishing import put_in_order
 from vectorplot.drawing.sheets import Mark, moved_mark, page_strokes
 from vectorplot.drawing.strokes import Rectangle, clipped
+from vectorplot.drawing.texts import Texts
 from vectorplot.errors import InputError
+from vectorplot.geometry import ragged
+from vectorplot.geometry.algebra import matmul
+from vectorplot.geometry.clipping import Window, clip_lines_2d
+from vectorplot.geometry.polygon_cuts import clipped_by_convex
 
 MARGIN_MM = 10.0
 """Around the part of the page that a sheet shows: plotters do not reach the edge of the paper."""
@@ -43,9 +49,9 @@ def tiled(
     Returns
     -------
     tuple of tuple of Drawing
-        Rows of sheets, the upper one first, each from the left: strokes end where their part of the page does, and are
-        in an order with little travel again. A first layer, registration, has crosses at the corners of the part, by
-        the pen of the first layer that is plotted.
+        Rows of sheets, the upper one first, each from the left: strokes and filled polygons end where their part of the
+        page does, and strokes are in an order with little travel again. A first layer, registration, has crosses at the
+        corners of the part, by the pen of the first layer that is plotted.
 
     Raises
     ------
@@ -54,7 +60,7 @@ def tiled(
 
     Notes
     -----
-    Edge cases: filled polygons and real texts are not cut, they end where the sheet does.
+    Edge cases: real texts cannot be cut: they are on every sheet that they reach, whole.
 
     Examples
     --------
@@ -110,10 +116,64 @@ def tile(
 
 
 def _cut(drawing: Drawing, layer: Layer, part: Rectangle) -> Iterator[Mark]:
-    """The marks of a layer, their strokes as the polylines that are left of them in a part of the page."""
+    """The marks of a layer, in a part of the page: strokes as polylines, fills cut, texts that reach it whole."""
     for mark in layer.marks:
         strokes = mark.paths if isinstance(mark, CurvedStrokes) else mark
-        yield clipped(strokes, part, drawing.page_from_world) if isinstance(strokes, Paths) else strokes
+        if isinstance(strokes, Paths):
+            yield clipped(strokes, part, drawing.page_from_world)
+        elif isinstance(strokes, Fills):
+            yield _cut_fills(strokes, part, drawing.page_from_world)
+        else:
+            yield _reaching(strokes, part)
+
+
+def _cut_fills(fills: Fills, part: Rectangle, page_from_world: Floats) -> Fills:
+    """What is left of filled polygons in a part of the page, in their order."""
+    fills = fills.take(np.flatnonzero(np.diff(fills.offsets) > 1)).in_triangles()
+    if not len(fills):
+        return fills
+    low, high = (best.reduceat(fills.points, fills.offsets[:-1], axis=0) for best in (np.minimum, np.maximum))
+    inside = ((low >= part[:2]) & (high <= part[2:])).all(axis=1)
+    crossing = ~inside & ((low <= part[2:]) & (high >= part[:2])).all(axis=1)
+    is_line = np.diff(fills.offsets) == 2
+    kept, lines, areas = (np.flatnonzero(which) for which in (inside, crossing & is_line, crossing & ~is_line))
+    # What is linear in the image, also where this is a perspective one: places divided by their depths.
+    depth = matmul(fills.points3d, page_from_world[3, :3]) + page_from_world[3, 3]
+    rows = np.column_stack([fills.points, fills.points3d / depth[:, None], 1.0 / depth, fills.colours])
+    left, bottom, right, top = part
+    first = fills.offsets[lines]
+    ends = clip_lines_2d(rows[first], rows[first + 1], Window(left, right, bottom, top))
+    ways = np.stack([ends.start, ends.end], axis=1)[ends.exists].reshape(-1, rows.shape[1])
+    lines = lines[ends.exists]
+    corner, offsets = ragged.take(fills.offsets, areas)
+    square = np.tile([(left, right, right, left), (bottom, bottom, top, top)], len(areas))
+    cut, offsets, of = clipped_by_convex(rows[corner].T, offsets, square, 4 * np.arange(len(areas) + 1))
+    number = np.concatenate([kept, lines, areas[of]])
+    parts = np.concatenate([ways, cut.T])
+    sizes = np.concatenate([np.full(len(lines), 2), np.diff(offsets)])
+    some = fills.take(number[len(kept) :])
+    made = Fills(
+        np.ascontiguousarray(parts[:, :2]),
+        ragged.offsets(sizes),
+        np.rint(parts[:, 6:]).astype(np.uint8),
+        some.opacity,
+        some.item,
+        parts[:, 2:5] / parts[:, 5:6],
+        some.kind,
+    )
+    return Fills.joined(fills.take(kept), made).take(np.argsort(number, kind="stable"))
+
+
+def _reaching(texts: Texts, part: Rectangle) -> Texts:
+    """The texts whose boxes reach into a part of the page."""
+    turn = np.radians(texts.turn_deg)
+    along = np.stack([np.cos(turn), np.sin(turn)], axis=1)
+    up = np.stack([-along[:, 1], along[:, 0]], axis=1) * texts.size_mm[:, None]
+    begin = texts.points - (texts.anchor * texts.room_mm)[:, None] * along
+    end = begin + texts.room_mm[:, None] * along
+    corners = np.stack([begin - up / 2.0, end - up / 2.0, begin + up, end + up])
+    meets = ((corners.min(axis=0) <= part[2:]) & (corners.max(axis=0) >= part[:2])).all(axis=1)
+    return texts.take(np.flatnonzero(meets))
 
 
 def _crosses(box: Floats) -> list[Floats]:

@@ -747,12 +747,14 @@ def _between(item: Item, camera: Camera, tolerance: float) -> Item:
             place = np.where(place >= 0, np.append(next_place, -1)[place], -1)
         if item.added_edges is not None and len(item.added_edges):
             beyond = [_beyond(camera, side, limit) for side, limit in _planes(camera)]
-            ends = segments_outside(item.added_edges[:, 0], item.added_edges[:, 1], beyond)
-            item = replace(item, added_edges=np.stack(ends, axis=1))
+            start, end, _ = segments_outside(item.added_edges[:, 0], item.added_edges[:, 1], beyond)
+            item = replace(item, added_edges=np.stack([start, end], axis=1))
         if mesh is item.shape:
             return item
         kept = tuple(replace(p, face=int(place[p.face])) for p in item.patterns if place[p.face] >= 0)
-        return replace(item, shape=mesh, patterns=kept)
+        # Contours by the normals of the whole would reach beyond what is left.
+        normals = None if item.curves.smooth_contours else item.normals
+        return replace(item, shape=mesh, patterns=kept, normals=normals)
     low, high = smooth_bounds(item.shape)
     corners = np.where(np.array(list(np.ndindex(2, 2, 2))) == 1, high, low)
     met = []

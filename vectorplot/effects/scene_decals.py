@@ -38,10 +38,11 @@ def scene_shadows(
     off: Floats,
     budget: Budget = USUAL,
     receivers: Bools | None = None,
+    overlapping: Bools | None = None,
 ) -> Decals:
     """The shadows of opaque items, of every grade, with soft borders of some width in the image; off (i,): how far the
     faces of items may be off the surfaces that they stand for; receivers (f,): the faces that they may fall on (None:
-    all). An InputWarning names the items (i,) for which the budget did not do."""
+    all); overlapping (f,): as in graded. An InputWarning names the items (i,) for which the budget did not do."""
     from vectorplot.effects.shadows import cast_within, graded, shadow_decals_of, tell_missing_shadows
     from vectorplot.effects.soft_shadows import shadow_borders, united_shadows
 
@@ -52,7 +53,7 @@ def scene_shadows(
     tell_missing_shadows(items, lights, cast.left_out)
     # Borders are made of the regions that cells are made of.
     single = cast.shadows if aura == 0.0 else united_shadows(view, cast.shadows)
-    cells = graded(view, single)
+    cells = graded(view, single, overlapping)
     dark = shadow_decals_of(cells, FillKind.SHADOW)
     return dark if aura == 0.0 else joined_decals(dark, shadow_borders(view, single, cells, aura))
 

@@ -322,11 +322,11 @@ def unpierced_faces(view: View, items: Bools, sides: Ints) -> Bools:
         return result
     world = matmul(view.axes.T, view.points)
     starts = view.item_vertices[item]
-    boxes = [f.reduceat(world, starts, axis=1) for f in (np.minimum, np.maximum)]
+    box_low, box_high = (f.reduceat(world, starts, axis=1) for f in (np.minimum, np.maximum))
     position, offsets = ragged.take(view.offsets, face)
     corner = world[:, view.corners[position]]
     low, high = (f.reduceat(corner, offsets[:-1], axis=1) for f in (np.minimum, np.maximum))
-    which, other = overlapping_boxes(low - view.tolerance, high + view.tolerance, *boxes)
+    which, other = overlapping_boxes(low - view.tolerance, high + view.tolerance, box_low, box_high)
     result[face[which[item[other] != view.face_item[face[which]]]]] = False
     return result
 

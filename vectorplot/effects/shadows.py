@@ -108,12 +108,13 @@ def joined_shadows(shadows: Sequence[Shadows]) -> Shadows:
     return joined((nothing, *shadows))
 
 
-def graded(view: View, shadows: Shadows) -> Shadows:
+def graded(view: View, shadows: Shadows, overlapping: Bools | None = None) -> Shadows:
     """The cells of the arrangement of shadows of single lights, face by face: simple polygons, each with all the lights
     that do not get there, to be painted in the order of their grades.
 
     A face that lights do not reach at all comes as a whole, for want of these; other cells overlap only where one of a
-    higher grade fills a hole of a lower one. So at any point the polygon of the highest grade tells what lacks there.
+    higher grade fills a hole of a lower one, and on faces overlapping (f,) that only one light throws shadows on, which
+    stay as they are (None: no such faces). So at any point the polygon of the highest grade tells what lacks there.
     A shadow that is alone on its face keeps every digit; cells move by less than a few tolerances.
     Errors: InputError for more than MOST_CELLS cells; an InputWarning from MANY_CELLS on. There are as many of them as
     the arrangement has: with m shadows on a face that all cross each other about m squared.
@@ -128,6 +129,10 @@ def graded(view: View, shadows: Shadows) -> Shadows:
     found = [_lacking(shadows.take(whole[first]), dark[number[whole[first]]])]
     part = np.flatnonzero(~shadows.whole)
     several = np.bincount(number[part], minlength=len(faces))[number[part]] > 1
+    if overlapping is not None:
+        lights = np.zeros(len(faces), dtype=np.intp)
+        np.bitwise_or.at(lights, number[part], shadows.lacking[part])
+        several &= ~overlapping[shadows.face[part]] | (np.bitwise_count(lights)[number[part]] > 1)
     alone = part[~several]
     found.append(_lacking(shadows.take(alone), shadows.lacking[alone] | dark[number[alone]]))
     crowd = part[several]

@@ -24,6 +24,7 @@ from vectorplot.features.implicit_tracing import ImplicitCurves
 from vectorplot.features.mesh_edge_lines import apart_at_creases
 from vectorplot.features.mesh_lines import (
     FaceTriangles,
+    LevelSegments,
     MeshCurves,
     all_mesh_curves,
     face_triangles,
@@ -36,7 +37,7 @@ from vectorplot.geometry.connectivity import concat
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.vectors import cross, dot, norm
 from vectorplot.surfaces.surface import ImplicitSurface
-from vectorplot.tolerances import LEAST_DIVISOR, ROUNDING_OF_POINTS, ROUNDING_OF_TERMS, SETTLED_FIT
+from vectorplot.tolerances import LEAST_DIVISOR, ROUNDING_OF_POINTS, ROUNDING_OF_TERMS, SETTLED_FIT, TRUE_NORMAL_SINE
 from vectorplot.words import LineKind
 
 # How a mesh of a smooth shape bends at its vertices: fitted to the normals around each.
@@ -290,25 +291,72 @@ def smooth_contours(mesh: Mesh, sight: Sight, crease_angle_deg: float) -> Smooth
     smooth = apart_at_creases(mesh, crease_angle_deg)
     vertices, triangles = smooth.vertices, face_triangles(smooth).triangles
     normals = smooth_normals(vertices, triangles)
-    facing = dot(sight.ways(vertices)[0], normals)
-    facing = np.where(np.abs(facing) <= ROUNDING_OF_TERMS, 0.0, facing)
+    facing = _facing(vertices, normals, sight, ROUNDING_OF_TERMS)
     facing[~normals.any(axis=1)] = np.nan
-    met = level_segments(triangles, facing)
-    low, high = facing[met.low], facing[met.high]
-    part = (low / (low - high))[:, None]
+    met, part = _edge_on(triangles, facing)
     points = vertices[met.low] + part * (vertices[met.high] - vertices[met.low])
-    far = _reach(vertices, triangles, normals)
-    out = normals[met.low] + part * (normals[met.high] - normals[met.low])
-    out *= (np.maximum(far[met.low], far[met.high]) / norm(out))[:, None]
     for _ in range(CONTOUR_ROUNDS):
         points = _contour_evened(points, met.pairs)
+    return _with_aside(smooth, normals, sight, facing, met, part, points, enclosed(mesh))
+
+
+def true_contours(mesh: Mesh, normals: Floats, sight: Sight, outward: float | None) -> SmoothContours:
+    """Where the true normals (v,3) of a surface at the vertices of a mesh of it, taken apart along its sharp edges, are
+    at right angles to the view: on the cubics that leave the ends of the sides of faces at right angles to the normals
+    there, and on sharp edges themselves.
+
+    outward: as of enclosed, of the mesh before it was taken apart.
+    Edge cases: where there is no normal, at the tip of a cone, contours end.
+    Source: Vlachos, Peters, Boyd, Mitchell (2001), Curved PN triangles, section 3.1.
+    """
+    vertices = mesh.vertices
+    facing = _facing(vertices, normals, sight, TRUE_NORMAL_SINE)
+    met, part = _edge_on(face_triangles(mesh).triangles, facing)
+    low, high = vertices[met.low], vertices[met.high]
+    way = high - low
+    rises = (dot(way, normals[met.low])[:, None] * normals[met.low], dot(way, normals[met.high])[:, None])
+    first, last = low + (way - rises[0]) / 3.0, high - (way - rises[1] * normals[met.high]) / 3.0
+    rest = 1.0 - part
+    points = rest**3 * low + 3.0 * rest**2 * part * first + 3.0 * rest * part**2 * last + part**3 * high
+    sharp = np.bincount(met.pairs.ravel(), minlength=len(points)) < 2
+    points[sharp] = (low + part * way)[sharp]
+    return _with_aside(mesh, normals, sight, facing, met, part, points, outward)
+
+
+def _facing(vertices: Floats, normals: Floats, sight: Sight, zero: float) -> Floats:
+    """(v,) the cosines of normals with the view, 0 where they are no larger than zero."""
+    facing = dot(sight.ways(vertices)[0], normals)
+    return np.where(np.abs(facing) <= zero, 0.0, facing)
+
+
+def _edge_on(triangles: Ints, facing: Floats) -> tuple[LevelSegments, Floats]:
+    """Where cosines (v,) are 0 between vertices, linear in triangles, and (k,1) at which part of each side."""
+    met = level_segments(triangles, facing)
+    low, high = facing[met.low], facing[met.high]
+    return met, (low / (low - high))[:, None]
+
+
+def _with_aside(
+    mesh: Mesh,
+    normals: Floats,
+    sight: Sight,
+    facing: Floats,
+    met: LevelSegments,
+    part: Floats,
+    points: Floats,
+    outward: float | None,
+) -> SmoothContours:
+    """The segments between points (k,3) of contours on the sides of faces, and which way leads out of the shape."""
+    vertices, triangles = mesh.vertices, face_triangles(mesh).triangles
+    far = reaches(vertices, triangles, normals)
+    out = normals[met.low] + part * (normals[met.high] - normals[met.low])
+    out *= (np.maximum(far[met.low], far[met.high]) / np.maximum(norm(out), LEAST_DIVISOR))[:, None]
     start, end = points[met.pairs[:, 0]], points[met.pairs[:, 1]]
     aside = 0.5 * (out[met.pairs[:, 0]] + out[met.pairs[:, 1]])
-    whole = enclosed(mesh)
-    if whole is None:
+    if outward is None:
         outside = _outwards(vertices, triangles, facing, sight)[triangles[met.triangle]].sum(axis=1) >= 0.0
     else:
-        outside = np.full(len(met.pairs), whole > 0.0)
+        outside = np.full(len(met.pairs), outward > 0.0)
     kept = (start != end).any(axis=1)
     return SmoothContours(start[kept], end[kept], np.where(outside[:, None], aside, -aside)[kept])
 
@@ -325,7 +373,7 @@ def _contour_evened(points: Floats, pairs: Ints) -> Floats:
     return result
 
 
-def _reach(vertices: Floats, triangles: Ints, normals: Floats) -> Floats:
+def reaches(vertices: Floats, triangles: Ints, normals: Floats) -> Floats:
     """(v,) how far faces around each vertex rise above the shape: as far as its normals say that their sides leave it,
     which those along a straight line of it do not, however long they are."""
     corners, own = vertices[triangles], normals[triangles]

@@ -27,6 +27,9 @@ SLIM_FACES, FEWEST_PAIRS = 12, 1024
 FACES_AT_ONCE = 1 << 15
 """Pairs of faces, or of slim parts, looked at at once."""
 
+BOXES_AT_ONCE = 1 << 20
+"""About so many boxes of faces of pairs of parts are swept at once."""
+
 FEW_FACES = 1 << 8
 """Of parts of so few faces all pairs are looked at."""
 
@@ -337,6 +340,8 @@ def _pairs_of_faces(faces: Faces, part: Ints, tolerance: float) -> tuple[Ints, I
     a, b = overlapping_pairs(low, high)
     near = _may_meet(faces, part, a, b, tolerance)
     a, b = a[near], b[near]
+    beside = ~_within_hollow(faces, part, (low, high), a, b, tolerance)
+    a, b = a[beside], b[beside]
     meeting = np.zeros(parts, dtype=np.bool_)
     meeting[a], meeting[b] = True, True
     face = np.flatnonzero(meeting[part])
@@ -373,6 +378,34 @@ def _may_meet(faces: Faces, part: Ints, one: Ints, two: Ints, tolerance: float) 
     for pairs in mapped(apart, slices(len(kept), FACES_AT_ONCE)):
         close[pairs] = False
     return close
+
+
+def _within_hollow(
+    faces: Faces, part: Ints, boxes: tuple[Floats, Floats], one: Ints, two: Ints, tolerance: float
+) -> Bools:
+    """(n,) of which pairs of parts, with boxes (3,p), one lies in a ball about the middle of the other that the planes
+    of this one's faces leave free: shells in each other, all boxes of which overlap."""
+    parts = boxes[0].shape[1]
+    size = np.bincount(part, minlength=parts)
+    large = np.flatnonzero(np.minimum(size[one], size[two]) > SLIM_FACES)
+    result = np.zeros(len(one), dtype=np.bool_)
+    if not len(large):
+        return result
+    asked, middle = np.zeros(parts, dtype=np.bool_), np.zeros((3, parts))
+    asked[one[large]] = asked[two[large]] = True
+    middle[:, asked] = (boxes[0][:, asked] + boxes[1][:, asked]) / 2.0
+    which = np.flatnonzero(asked[part])
+    position, face, starts = _corners_of(faces, which)
+    arm = faces.points.take(faces.corners[position], axis=1) - middle.take(part[which[face]], axis=1)
+    free, reach = np.full(parts, np.inf), np.zeros(parts)
+    np.maximum.at(reach, part[which[face]], np.sqrt(dot(arm, arm)))
+    normals = unit_normals(faces, which)
+    np.minimum.at(free, part[which], np.abs(dot(normals, arm.take(starts, axis=1))))
+    way = middle.take(one[large], axis=1) - middle.take(two[large], axis=1)
+    apart = np.sqrt(dot(way, way)) + tolerance
+    inside = apart + reach[one[large]] < free[two[large]]
+    result[large] = inside | (apart + reach[two[large]] < free[one[large]])
+    return result
 
 
 def _longest_edges(faces: Faces, part: Ints) -> Floats:
@@ -427,23 +460,31 @@ def _within_pairs(
     first = np.searchsorted(part[by_part], np.arange(part_low.shape[1] + 1))
     common_low = np.maximum(part_low.take(a, axis=1), part_low.take(b, axis=1))
     common_high = np.minimum(part_high.take(a, axis=1), part_high.take(b, axis=1))
-    sides = []
-    for which in (a, b):
-        size = first[which + 1] - first[which]
-        pair = ragged.owner(size)
-        face = by_part[np.arange(len(pair)) - np.repeat(ragged.starts(size) - first[which], size)]
-        near = np.ones(len(pair), dtype=np.bool_)
-        for axis in range(3):
-            near &= low[axis, face] <= common_high[axis, pair]
-            near &= high[axis, face] >= common_low[axis, pair]
-        sides.append((pair[near], face[near]))
-    # Faces of different pairs are kept apart by a shift on one axis: so one sweep serves all pairs.
-    (one_low, one_high), (two_low, two_high) = (
-        [np.stack([ends[0, face] + AXIS_SHIFT * pair, ends[1, face], ends[2, face]]) for ends in (low, high)]
-        for pair, face in sides
-    )
-    one, two = overlapping_boxes(one_low, one_high, two_low, two_high, axis=0)
-    return sides[0][1][one], sides[1][1][two]
+    sizes = np.diff(first)[a] + np.diff(first)[b]
+    none = np.zeros(0, dtype=np.intp)
+    found = [(none, none, none.astype(np.bool_))]
+    for begin, end in ragged.batches(sizes, BOXES_AT_ONCE):
+        sides = []
+        for which in (a[begin:end], b[begin:end]):
+            size = first[which + 1] - first[which]
+            pair = begin + ragged.owner(size)
+            face = by_part[np.arange(len(pair)) - np.repeat(ragged.starts(size) - first[which], size)]
+            near = np.ones(len(pair), dtype=np.bool_)
+            for axis in range(3):
+                near &= low[axis, face] <= common_high[axis, pair]
+                near &= high[axis, face] >= common_low[axis, pair]
+            sides.append((pair[near], face[near]))
+        # Faces of different pairs are kept apart by a shift on one axis: so one sweep serves many pairs.
+        (one_low, one_high), (two_low, two_high) = (
+            [np.stack([ends[0, face] + AXIS_SHIFT * pair, ends[1, face], ends[2, face]]) for ends in (low, high)]
+            for pair, face in sides
+        )
+        one, two = overlapping_boxes(one_low, one_high, two_low, two_high, axis=0)
+        found.append((sides[0][1][one], sides[1][1][two], two_low[0, two] < one_low[0, one]))
+    one, two, before = (np.concatenate(column) for column in zip(*found, strict=True))
+    # First those of which the second face begins within the first one.
+    order = np.argsort(before, kind="stable")
+    return one[order], two[order]
 
 
 def _meet(faces: Faces, normals: Floats, one: Ints, two: Ints, tolerance: float) -> Intersections:

@@ -8,6 +8,7 @@ from .projections import CoordinateSystem, collineate, project
 from .regions import polygons_of
 from .rotations import axis_frame, rotated_about_line, rotation_about, rotation_x, rotation_z
 from .solids import box, has_convex_outline, placed, polyhedron, prism, regular_polygon, revolution
+from .unions import polyhedron_union
 from .vectors import translated
 
 __all__ = [
@@ -30,6 +31,7 @@ __all__ = [
     "polygons_of",
     "polyhedron",
     "polyhedron_intersection",
+    "polyhedron_union",
     "prism",
     "project",
     "ragged",

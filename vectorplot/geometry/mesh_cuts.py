@@ -81,8 +81,10 @@ def moved_planes(normals: Floats, offsets: Floats, matrix: Floats) -> tuple[Floa
     return moved / lengths[:, None], (offsets + matmul(moved, matrix[:3, 3])) / lengths
 
 
-def segments_outside(start: Floats, end: Floats, regions: Sequence[HalfSpaces]) -> tuple[Floats, Floats]:
-    """What of segments from start to end (n,3) lies in none of some convex regions."""
+def segments_outside(start: Floats, end: Floats, regions: Sequence[HalfSpaces]) -> tuple[Floats, Floats, Ints]:
+    """What of segments from start to end (n,3) lies in none of some convex regions: both ends of the parts that are
+    left, and (k,) of which segment each is a part."""
+    which = np.arange(len(start))
     for region in regions:
         here, there = region.heights(start), region.heights(end)
         rise = there - here
@@ -96,7 +98,8 @@ def segments_outside(start: Floats, end: Floats, regions: Sequence[HalfSpaces]) 
         ends = [(start, start + low[:, None] * way), (start + high[:, None] * way, end)]
         some = [low > 0.0, high < 1.0]
         start, end = (np.concatenate([ends[k][side][some[k]] for k in (0, 1)]) for side in (0, 1))
-    return start, end
+        which = np.concatenate([which[some[0]], which[some[1]]])
+    return start, end, which
 
 
 def nothing_beside(points: Floats) -> float:

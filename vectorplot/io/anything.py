@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import sys
 import warnings
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
@@ -25,7 +26,7 @@ from vectorplot.tolerances import SINGLE_ULP, ULP
 
 TAKEN = (
     "a path, Scene, Item, Mesh, surface, curve, (vertices, faces), heights, a mesh of trimesh or meshio, "
-    "or a list of these"
+    "a shape of build123d or CadQuery, or a list of these"
 )
 """What the verbs take, in words."""
 
@@ -35,10 +36,10 @@ CURVE_HINT = "; vectorplot.curves.spline_curve(points, AkimaSpline()) is the cur
 
 def scene_of(shown: object) -> Scene:
     """The scene of anything with a shape: a path, read as by `vp.read`; shapes, as gray items named after what they
-    are; a mesh of another library, known by vertices and faces or by points and cells, whose volumes show their
-    outer faces; arrays of vertices (n,3) and faces (f,k); a Terrain or heights (m,n), with level lines, extreme
-    heights of arrays scaled as in files; a list of these, or a mapping that names them. Camera, page, background and
-    title are the first that any has.
+    are; a shape of build123d, CadQuery or OpenCASCADE; a mesh of another library, known by vertices and faces or by
+    points and cells, whose volumes show their outer faces; arrays of vertices (n,3) and faces (f,k); a Terrain or
+    heights (m,n), with level lines, extreme heights of arrays scaled as in files; a list of these, or a mapping that
+    names them. Camera, page, background and title are the first that any has.
     Errors: TypeError for anything else; as `vp.read`, for meshes that make no sense, and for a drawing. Warns
     InputWarning: what was repaired of other meshes and of arrays; how heights were scaled.
     """
@@ -63,6 +64,12 @@ def _scene_of(shown: Any, around: tuple[object, ...]) -> Scene:
         from vectorplot.io.terrain_files import scene_of_array
 
         return scene_of_array(shown)
+    # Only where a shape of OpenCASCADE can be, it is looked for.
+    if sys.modules.get("OCP") is not None:
+        from vectorplot.io.cad_files import cad_object_scene
+
+        if (parts := cad_object_scene(shown)) is not None:
+            return parts
     item = _item(shown)
     if item is not None:
         return Scene((item,))

@@ -18,12 +18,7 @@ _EXPORT_MESH = "export it as stl, obj, ply, off or glb"
 _NO_SHAPES = "it holds no shapes in space"
 
 _SUFFIXES = {
-    ".step": ("a STEP file", _EXPORT_MESH),
-    ".stp": ("a STEP file", _EXPORT_MESH),
-    ".iges": ("an IGES file", _EXPORT_MESH),
-    ".igs": ("an IGES file", _EXPORT_MESH),
-    ".brep": ("an Open CASCADE shape", _EXPORT_MESH),
-    ".fcstd": ("a FreeCAD document", _EXPORT_MESH),
+    ".fcstd": ("a FreeCAD document", "export it as step, stl, obj, ply, off or glb"),
     ".scad": ("an OpenSCAD program", "export it from OpenSCAD as stl or off"),
     ".dxf": ("a DXF drawing", _EXPORT_MESH),
     ".dwg": ("a DWG drawing", _EXPORT_MESH),
@@ -58,7 +53,7 @@ _SUFFIXES = {
 }
 
 _BEGINNINGS = (
-    (b"ISO-10303-21", *_SUFFIXES[".step"]),
+    (b"ISO-10303-21", "a STEP file", "give its name the suffix .step"),
     (b"PK\x03\x04", "a zip archive", "unpack it first, or export a mesh"),
     (b"\x1f\x8b", *_SUFFIXES[".gz"]),
     (b"%PDF", *_SUFFIXES[".pdf"]),
@@ -95,14 +90,21 @@ def unsupported_kind(path: Path, head: bytes) -> str | None:
 MOLECULE_SUFFIXES = (".xyz", ".pdb", ".ent", ".cif", ".mmcif")
 TERRAIN_SUFFIXES = (".asc",)
 SCENE_SUFFIXES = (".scene", ".txt")
+CAD_SUFFIXES = (".step", ".stp", ".iges", ".igs", ".brep")
 
 
-def read(path: str | os.PathLike[str], *, exaggeration: float | None = None, molecules: str | None = None) -> Scene:
-    """The scene in a file: a mesh (one of MESH_SUFFIXES), a molecule (xyz, pdb, cif), a terrain (asc, xyz), or the
-    scene language (any other suffix). exaggeration: factor of a terrain's heights; where None, extreme heights are
-    scaled by 1, 2 or 5 times a power of ten, with an InputWarning. molecules: see
-    molecule_scene. A mesh file gives one item, or one for each
-    object or node. Meshes are repaired (see mesh_repair.repaired), reported in one InputWarning a file.
+def read(
+    path: str | os.PathLike[str],
+    *,
+    exaggeration: float | None = None,
+    tolerance: float | None = None,
+    molecules: str | None = None,
+) -> Scene:
+    """The scene in a file: a mesh (one of MESH_SUFFIXES), parts of a CAD system (see cad_files.cad_scene), a molecule
+    (xyz, pdb, cif), a terrain (asc, xyz), or the scene language (any other suffix). exaggeration: factor of a terrain's
+    heights; where None, extreme heights are scaled by 1, 2 or 5 times a power of ten, with an InputWarning. tolerance:
+    of parts. molecules: see molecule_scene. A mesh file gives one item, or one for each object or node. Meshes are
+    repaired (see mesh_repair.repaired), reported in one InputWarning a file.
     Errors: InputError, one line with file, line and cause; a file of another kind is named as such.
     """
     path = Path(path)
@@ -122,6 +124,10 @@ def read(path: str | os.PathLike[str], *, exaggeration: float | None = None, mol
         return molecule_scene(read_molecule(path), STYLES[0] if molecules is None else molecules)
     if path.suffix.lower() in MESH_SUFFIXES:
         return mesh_scene(path)
+    if path.suffix.lower() in CAD_SUFFIXES:
+        from vectorplot.io.cad_files import USUAL_TOLERANCE, cad_scene
+
+        return cad_scene(path, USUAL_TOLERANCE if tolerance is None else tolerance)
     _check_text(path)
     return _scene_text(path)
 
@@ -165,7 +171,13 @@ _NAME = "standard input"
 """What messages call it."""
 
 
-def read_named(name: str, *, exaggeration: float | None = None, molecules: str | None = None) -> Scene:
+def read_named(
+    name: str,
+    *,
+    exaggeration: float | None = None,
+    tolerance: float | None = None,
+    molecules: str | None = None,
+) -> Scene:
     """The scene in the file of a name, as io.read_file.read has it, found as io.named_files.data_file has it; of the
     name ``-`` the one in the scene language on standard input, in which names of files are relative to the folder that
     one is in.
@@ -173,7 +185,7 @@ def read_named(name: str, *, exaggeration: float | None = None, molecules: str |
     Errors: InputError as in read; for a text that is empty, larger than 64 MiB, not UTF-8 or something else.
     """
     if name != STANDARD_INPUT:
-        return read(data_file_or_name(name), exaggeration=exaggeration, molecules=molecules)
+        return read(data_file_or_name(name), exaggeration=exaggeration, tolerance=tolerance, molecules=molecules)
     from vectorplot.io.scene_language import MAX_FILE_BYTES, parse_scene
 
     if exaggeration is not None:

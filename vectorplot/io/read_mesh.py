@@ -100,7 +100,8 @@ def _mesh_reader(suffix: str) -> Callable[[Path], MeshFile] | None:
 def _mesh_scene(path: Path, content: MeshFile) -> Scene:
     check_range(content.mesh.bounds)
     parts, mending = _repaired_parts(path.stem, content)
-    items = tuple(_item(name, mesh, content) for name, mesh in parts if mesh.face_count)
+    filled = [Item(name, mesh, fields=content.fields) for name, mesh in parts if mesh.face_count]
+    items = tuple(with_looks(item, content.looks) for item in filled)
     if not items:
         raise InputError(f"no face with an area ({mending})", file=shown(path))
     if str(mending):
@@ -108,14 +109,14 @@ def _mesh_scene(path: Path, content: MeshFile) -> Scene:
     return Scene(items)
 
 
-def _item(name: str, mesh: Mesh, content: MeshFile) -> Item:
-    """A part in its colours: those of all of its faces, if they are the same."""
-    item = Item(name, mesh, fields=content.fields)
-    if content.looks is None:
+def with_looks(item: Item, known: FaceLooks | None) -> Item:
+    """A polyhedron in its colours: those of all of its faces, if they are the same."""
+    if known is None:
         return item
-    of_face = content.looks.at(mesh)
+    mesh = item.mesh
+    of_face = known.at(mesh)
     used, own = np.unique(of_face, return_inverse=True)
-    looks = content.looks.looks
+    looks = known.looks
     if len(used) == 1 and used[0] >= 0:
         look = looks[int(used[0])]
         colour = item.colour if look.colour is None else look.colour

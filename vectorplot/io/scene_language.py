@@ -319,14 +319,47 @@ class _Reader(ItemReader):
         self.at += 1
         draft = Draft("assembly", start)
         first, lit = len(self.items), len(self.lit)
+        self.members("assembly", start)
+        self.modifiers(draft)
+        if len(self.lit) > lit and draft.places != [IDENTITY]:
+            self.source.fail(start, "assembly: items with 'lit_by' cannot be moved together")
+        if draft.places != [IDENTITY]:
+            self.repeated(self.taken(first), draft)
+
+    def union(self) -> None:
+        """A name, the items up to the word end, which are one body, and where it stands."""
+        start = self.at
+        self.at += 1
+        if self.words[self.at] in ("", ",", *SCENE_WORDS) or self.source.is_number(self.at):
+            self.fail(f"union: expected the name of the body, got {self.source.shown(self.at)}")
+        draft = Draft(self.source.string(self.at), start)
+        self.at += 1
+        first, lit = len(self.items), len(self.lit)
+        self.members("union", start)
+        self.modifiers(draft)
+        if len(self.lit) > lit:
+            self.source.fail(start, f"{draft.owner}items with 'lit_by' cannot be united")
+        items = self.taken(first)
+        if not items:
+            self.source.fail(start, f"{draft.owner}a union of no items")
+        from vectorplot.scene.united import union_item
+
+        try:
+            body = union_item(items, draft.name)
+        except InputError as error:
+            self.source.fail(start, draft.owner + error.cause)
+        self.repeated([replace(body, place=(self.source.name, self.source.line(start)))], draft)
+
+    def members(self, group: str, start: int) -> None:
+        """The items of an assembly or a union, and the word end."""
         while (word := self.words[self.at]) != "end":
             if not word:
-                self.source.fail(start, "assembly: expected 'end' behind its items, got the end of the file")
-            alone = word in SCENE_WORDS and word not in ("include", "assembly")
+                self.source.fail(start, f"{group}: expected 'end' behind its items, got the end of the file")
+            alone = word in SCENE_WORDS and word not in ("include", "assembly", "union")
             if alone or begins_annotation(self.source, self.at):
-                self.fail(f"assembly: expected an item or 'end', got {self.source.shown(self.at)}")
-            if word == "assembly" and self.depth >= DEEPEST:
-                self.fail(f"assembly: more than {DEEPEST} in one another")
+                self.fail(f"{group}: expected an item or 'end', got {self.source.shown(self.at)}")
+            if word in ("assembly", "union") and self.depth >= DEEPEST:
+                self.fail(f"{word}: more than {DEEPEST} in one another")
             if word in _MANIFOLD:
                 self.depth += 1
                 _MANIFOLD[word](self)
@@ -334,21 +367,20 @@ class _Reader(ItemReader):
             else:
                 self.item()
         self.at += 1
-        self.modifiers(draft)
-        if len(self.lit) > lit and draft.places != [IDENTITY]:
-            self.source.fail(start, "assembly: items with 'lit_by' cannot be moved together")
+
+    def taken(self, first: int) -> list[Item]:
+        """The items from a place on, but for parts of intersections, out of the list of all items."""
         gone = {place for place in self.parts if place >= first}
         items = [item for place, item in enumerate(self.items) if place >= first and place not in gone]
-        if draft.places != [IDENTITY]:
-            self.parts -= gone
-            del self.items[first:]
-            for name in [name for name, place in self.places.items() if place >= first]:
-                del self.places[name]
-            self.repeated(items, draft)
+        self.parts -= gone
+        del self.items[first:]
+        for name in [name for name, place in self.places.items() if place >= first]:
+            del self.places[name]
+        return items
 
     def alone(self) -> None:
         """The word end without a beginning."""
-        self.fail("'end' without 'assembly'")
+        self.fail("'end' without 'assembly' or 'union'")
 
     def repeated(self, items: Sequence[Item], draft: Draft) -> None:
         """Items as often and where a draft says."""
@@ -380,6 +412,7 @@ class _Reader(ItemReader):
 _MANIFOLD: dict[str, Callable[[_Reader], None]] = {
     "include": _Reader.include,
     "assembly": _Reader.assembly,
+    "union": _Reader.union,
     "end": _Reader.alone,
 }
 """Statements about several items at once."""

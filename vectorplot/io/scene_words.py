@@ -84,7 +84,7 @@ SCENE_WORDS = (
         "depth_cue",
     ),
     *("style", "pen", "dash", "explode", "measures"),
-    *("include", "assembly", "end"),
+    *("include", "assembly", "union", "end"),
     *(word for word in ANNOTATION_WORDS if word not in SLOT_TOO),
 )
 

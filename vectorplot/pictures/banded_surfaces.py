@@ -29,17 +29,8 @@ from vectorplot.shading.shade_bands import (
     palette_reaches,
 )
 from vectorplot.shading.shaded_faces import item_colours
-from vectorplot.tolerances import LEAST_DIVISOR
+from vectorplot.tolerances import LEAST_DIVISOR, SAME_AREA, SAME_NORMAL, SHADOW_CORNER_MM
 from vectorplot.visibility.painter.image_faces import ImageFaces, view_points
-
-OTHER_NORMAL = 1e-4
-"""Normals at one place that differ by more are those of two sides of an edge."""
-
-ONE_PLACE_MM = 1e-4
-"""Corners of shadows on neighbouring facets that are in one cell of this size on the page are one."""
-
-DARK = 1.0 - 1e-9
-"""A facet of which shadows cover such a part is dark as a whole."""
 
 ROUND = np.pi / 2.0
 """On a ball lit from the eye shades change by so much a radius in the mean."""
@@ -165,8 +156,8 @@ def _nodes(points: Floats, normals: Floats) -> Ints:
     order = np.argsort(number, kind="stable")
     starts = np.flatnonzero(np.diff(number[order], prepend=-1))
     low, high = (extreme.reduceat(normals[:, order], starts, axis=1) for extreme in (np.minimum, np.maximum))
-    several = np.flatnonzero(((high - low).max(axis=0) > OTHER_NORMAL)[number])
-    rows = np.column_stack([number[several], np.rint(normals[:, several] / OTHER_NORMAL).T])
+    several = np.flatnonzero(((high - low).max(axis=0) > SAME_NORMAL)[number])
+    rows = np.column_stack([number[several], np.rint(normals[:, several] / SAME_NORMAL).T])
     found = number.copy()
     found[several] = len(number) + np.unique(rows, axis=0, return_inverse=True)[1].reshape(-1)
     return found
@@ -177,13 +168,13 @@ def _shadow_corners(parts: Laid, lacking: Ints, placement: Placement) -> tuple[F
     alike for those in one place for want of the same lights; without corners at which no part turns, and without ways
     that lead there and back again."""
     page, offsets = placement.on_page(parts.points[:2]), parts.offsets
-    rows = np.column_stack([np.rint(page / ONE_PLACE_MM), lacking[ragged.owner(np.diff(offsets))]])
+    rows = np.column_stack([np.rint(page / SHADOW_CORNER_MM), lacking[ragged.owner(np.diff(offsets))]])
     node, corner = distinct_points(rows)[1], np.arange(len(page))
     while True:
         own, before, after = node[corner], ragged.preceding(offsets), ragged.following(offsets)
         start, end = page[corner[before]], page[corner[after]]
         way, arm = (end - start).T, (page[corner] - start).T
-        turns = np.abs(way[0] * arm[1] - way[1] * arm[0]) > ONE_PLACE_MM * np.hypot(*way)
+        turns = np.abs(way[0] * arm[1] - way[1] * arm[0]) > SHADOW_CORNER_MM * np.hypot(*way)
         turns |= (np.diff(offsets) == TRIANGLE)[ragged.owner(np.diff(offsets))]
         back = (own == own[before]) | (own[before] == own[after])
         kept = (np.bincount(own, turns & ~back)[own] > 0.0) & ~back
@@ -209,13 +200,16 @@ def _apart_from_farther(owner: Ints, node: Ints, layer: Ints) -> Bools:
     """(n,) the facets that have no corner in common with one of a layer behind theirs."""
     farthest = np.zeros(int(node.max(initial=-1)) + 1, dtype=np.intp)
     np.maximum.at(farthest, node, layer[owner])
-    return np.bincount(owner, farthest[node] > layer[owner], minlength=len(layer)) == 0.0
+    return np.asarray(np.bincount(owner, farthest[node] > layer[owner], minlength=len(layer)) == 0.0)
 
 
 def _dark(faces: ImageFaces, parts: Laid) -> Bools:
-    """(n,) the facets that parts of decals, which do not overlap, cover."""
+    """(n,) the facets that one part of a decal covers, or several that do not overlap."""
     whole, covered = (np.abs(_signed_areas(shapes.points, shapes.offsets)) for shapes in (faces, parts))
-    return np.bincount(parts.piece, covered, minlength=len(whole)) > DARK * whole
+    largest = np.zeros(len(whole))
+    np.maximum.at(largest, parts.piece, covered)
+    together = np.bincount(parts.piece, covered, minlength=len(whole))
+    return (largest >= (1.0 - SAME_AREA) * whole) | (np.abs(together - whole) <= SAME_AREA * whole)
 
 
 def _signed_areas(points: Floats, offsets: Ints) -> Floats:

@@ -120,7 +120,10 @@ def fineness(
         from vectorplot.effects.glass import items_in_glass
 
         in_glass = items_in_glass(shown, projection)
-    return picture_fineness(shown, projection, casts, allowed, tolerance_mm, in_glass)
+    in_bands = None
+    if pipeline.calls_for("surface bands"):
+        in_bands = np.array([may_have_bands(item) for item in shown.items], dtype=np.bool_)
+    return picture_fineness(shown, projection, casts, allowed, tolerance_mm, in_glass, in_bands)
 
 
 def off_surfaces(seen: VisiblePolygons, tolerance_mm: float) -> Floats:
@@ -307,7 +310,8 @@ def coloured(
     pipeline.measured("shades", "of 255", shade_error_steps, seen, lighting)
     rest, shades, whole = posterized(rest, lighting, shades)
     aura = aura_mm / seen.placement.scale
-    decals, lighting = _decals(pipeline, seen, lighting, aura, tolerance_mm, budget, cast)
+    in_bands = None if split is None else split.faces_of(seen)
+    decals, lighting = _decals(pipeline, seen, lighting, aura, tolerance_mm, budget, cast, in_bands)
     laid = _laid(rest, lighting, decals)
     overlays = _overlays(pipeline, rest, lighting, decals, aura, tolerance_mm, budget)
     plane = (lighting.plane if united is None else united)[rest.faces.source]
@@ -344,6 +348,12 @@ class _Split:
     layer: Ints
     unit: Ints
 
+    def faces_of(self, seen: VisiblePolygons) -> Bools:
+        """(f,) the faces of the view that are painted in bands."""
+        found = np.zeros(seen.view.face_count, dtype=np.bool_)
+        found[seen.faces.source[self.banded]] = True
+        return found
+
 
 def _layers(seen: VisiblePolygons, lighting: Lighting) -> _Split | None:
     """The layers of what is seen, and what of it may be painted in bands of equal shade; None where nothing may, or too
@@ -366,8 +376,10 @@ def _decals(
     tolerance_mm: float,
     budget: Budget,
     cast: Callable[[VisiblePolygons], Decals] | None,
+    in_bands: Bools | None,
 ) -> tuple[tuple[Decals, ...], Lighting]:
-    """The polygons that lie on faces, in the order in which they are painted."""
+    """The polygons that lie on faces, in the order in which they are painted; on those in bands (f,) shadows of one
+    light may overlap."""
     scene, view, projected = seen.scene, seen.view, seen.projected
     found: list[Decals] = []
     off = off_surfaces(seen, tolerance_mm)
@@ -375,7 +387,8 @@ def _decals(
         from vectorplot.effects.scene_decals import scene_shadows
 
         def own(seen: VisiblePolygons) -> Decals:
-            return scene_shadows(seen.view, scene.items, scene.lights, projected, aura, off, budget)
+            items, lights = scene.items, scene.lights
+            return scene_shadows(seen.view, items, lights, projected, aura, off, budget, overlapping=in_bands)
 
         found.append(pipeline.run("shadows", cast or own, seen))
     if pipeline.calls_for("mirror light"):

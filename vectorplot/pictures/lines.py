@@ -734,7 +734,8 @@ def _outlined(item: Item, asking: bool) -> Item:
     if not asking or is_annotation(item):
         return replace(item, lines=(), occludes=False)
     curves = replace(item.curves, smooth_contours=False)
-    return replace(item, lines=None, occludes=True, curves=curves, drawn_edges=None, added_edges=None)
+    bare = replace(item, drawn_edges=None, added_edges=None, tangent_edges=None)
+    return replace(bare, lines=None, occludes=True, curves=curves)
 
 
 def _border_sources(shapes: LineSources, budget: Budget) -> LineSources:
@@ -885,7 +886,8 @@ OUTLINES = frozenset({LineKind.CONTOUR, LineKind.BOUNDARY})
 @dataclass(frozen=True, eq=False)
 class LineOverlay:
     """How the lines of a scene come to be on a picture of its faces. view: of the latter, surfaces as triangles; faces:
-    its faces in the image, where they are known; all else as in draw, in the units of the placement's page."""
+    its faces in the image, where they are known; shortest: shorter lines are left out; all else as in draw, in the
+    units of the placement's page."""
 
     scene: Scene
     view: View
@@ -894,10 +896,11 @@ class LineOverlay:
     crease_angle_deg: float
     tolerance_mm: float
     budget: float
+    shortest: float | None = None
 
     def found(self, kinds: frozenset[LineKind], progress: Callable[[float], None]) -> Paths:
         """The visible lines, as they come; of no kinds those of annotations."""
-        return self._found(self.scene if kinds else only_annotations(self.scene), kinds, progress)
+        return self._long(self._found(self.scene if kinds else only_annotations(self.scene), kinds, progress))
 
     def labels(
         self, anchors: LabelAnchors, strokes: Paths | None, text: str = "strokes", mm: float = 1.0
@@ -928,8 +931,15 @@ class LineOverlay:
 
     def strokes(self, scene: Scene, kinds: frozenset[LineKind]) -> Paths:
         """The visible lines as polylines. scene: this one, whatever patterns it has."""
-        found = self._found(scene, kinds, None)
+        found = self._long(self._found(scene, kinds, None))
         (layer,) = inked((Layer("", PEN, (found,)),), "none", self.placement.page_from_world)
+        return layer.strokes[0]
+
+    def _long(self, found: Paths) -> Paths:
+        """The lines that are not too short when they are joined."""
+        if not self.shortest:
+            return found
+        (layer,), _ = without_short((Layer("", PEN, (found,)),), self.shortest)
         return layer.strokes[0]
 
     def _found(self, scene: Scene, kinds: frozenset[LineKind], progress: Callable[[float], None] | None) -> Paths:

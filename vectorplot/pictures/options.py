@@ -147,6 +147,8 @@ OPTIONS: dict[str, Option] = {
     "aura_mm": _number("an aura of {:g} mm", 0.0),
     "palette": _number("a palette of {:g} shades", 2, 256, whole=True),
     "smooth": _YES,
+    "tabs_mm": _number("tabs of {:g} mm", 0.0),
+    "numbers": _YES,
     "samples": _number("{:g} samples", 1, 8, whole=True, optional=True),
     "shadow_focus": Option("a number", _is_number),
     "progress": _CALLED,

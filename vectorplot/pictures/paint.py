@@ -126,6 +126,7 @@ def paint(
     title: str = "",
     frame: bool = False,
     text: Literal["strokes", "real"] = "strokes",
+    shortest_mm: float | None = None,
     font: str | None = None,
     off_by: float | str | None = None,
     within: float | str | None = None,
@@ -190,6 +191,8 @@ def paint(
         A rectangle in the middle of the margin, which ends before the title.
     text : {"strokes", "real"}
         As in draw.
+    shortest_mm : float, optional
+        Lines that are shorter when they are joined are left out; none where None.
     font : str, optional
         As in draw.
     off_by : float or str, optional
@@ -317,7 +320,7 @@ def paint(
         among = painted_bodies(painter, shown, beside_bodies)
     if among is not None:
         view, placement, polygons = among
-        ruler = LineOverlay(scene, view, None, placement, crease_angle_deg, tolerance_mm, budget)
+        ruler = LineOverlay(scene, view, None, placement, crease_angle_deg, tolerance_mm, budget, shortest_mm)
     else:
         ordered = painter.ordered(shown)
         beside = places_beside_faces(scene, ordered.view, None, sheet, fit, drawn, tolerance_mm, budget)
@@ -326,7 +329,8 @@ def paint(
             placement = subject.around(placement, ordered.view, sheet)
         pipeline.measured("facets", "mm", outline_error, ordered.facets, ordered.view, placement)
         seen, lighting = painter.seen(ordered, placement)
-        ruler = LineOverlay(scene, seen.view, seen.projected, placement, crease_angle_deg, tolerance_mm, budget)
+        drawn_by = (crease_angle_deg, tolerance_mm, budget, shortest_mm)
+        ruler = LineOverlay(scene, seen.view, seen.projected, placement, *drawn_by)
         if pipeline.calls_for("erasing"):
             polygons = erased(pipeline, seen, scene, ruler, kinds or line_kinds(ON_THINGS), palette)
         else:

@@ -104,6 +104,7 @@ def render(
     dashes: str | Mapping[str, str] | Iterable[str] | None = None,
     depth_cue: DepthCue | str | None = None,
     background: str | None = None,
+    shortest_mm: float | None = None,
     off_by: float | str | None = None,
     within: float | str | None = None,
     budget: float = 1.0,
@@ -164,6 +165,8 @@ def render(
         See draw, for lines over the picture.
     background : str, optional
         A palette, a plain colour or #rrggbb.
+    shortest_mm : float, optional
+        Lines that are shorter when they are joined are left out, at 96 pixels to the inch; none where None.
     off_by : float or str, optional
         The error that the picture is to keep, pixels, or a text such as "0.2px": number of samples is chosen for it,
         and what was reached is measured.
@@ -293,23 +296,25 @@ def render(
     if how == "exact":
         picture = replace(picture, points_at_once=EXACT_POINTS_AT_ONCE)
     pixels = pixels_in_bands(pipeline, picture, samples)
-    overlay, found = LineOverlay(seen, view, None, placement, crease_angle_deg, LINE_PIXELS, budget), None
+    mm = samples * PIXELS_PER_MM
+    drawn_by = (crease_angle_deg, LINE_PIXELS, budget, None if shortest_mm is None else shortest_mm * mm)
+    overlay, found = LineOverlay(seen, view, None, placement, *drawn_by), None
     if pipeline.calls_for("lines"):
         found = pipeline.run("lines", overlay.found, kinds, pipeline.fraction("lines"))
-        found = chain_lines_dashed(found, placement.page_from_world, samples * PIXELS_PER_MM)
+        found = chain_lines_dashed(found, placement.page_from_world, mm)
     if pipeline.calls_for("labels"):
         from vectorplot.pictures.pixels import with_blanks, with_lines
 
-        labels = pipeline.run("labels", overlay.labels, prepared.anchors, found, mm=samples * PIXELS_PER_MM)
+        labels = pipeline.run("labels", overlay.labels, prepared.anchors, found, mm=mm)
         tell_what_leaves_page(labels)
         found = found and labels.interrupted(found, placement.page_from_world)
-        letters = scaled_pen(over.letters(Pen(LETTER_PIXELS / PIXELS_PER_MM)), samples * PIXELS_PER_MM)
+        letters = scaled_pen(over.letters(Pen(LETTER_PIXELS / PIXELS_PER_MM)), mm)
         pixels = with_lines(with_blanks(pixels, labels.blanks(paper)), labels.strokes, letters)
         pixels = with_lines(pixels, labels.faint, scaled_pen(letters, FAINT))
     if found is not None:
         from vectorplot.pictures.pixels import with_layers
 
-        layers = over.layers(long_strokes(found), names, float(samples), samples * PIXELS_PER_MM)
+        layers = over.layers(long_strokes(found), names, float(samples), mm)
         layers = with_dashes(layers, placement.page_from_world)
         pixels = with_layers(pixels, overlay.cued(layers, pipeline, seen.depth_cue, paper[0].tolist()))
     averages = pipeline.run("average", averaged_light, pixels, samples)

@@ -21,6 +21,7 @@ from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.polylines import segments
 from vectorplot.geometry.vectors import dot, norm, normalize
+from vectorplot.io.anything import scene_of
 from vectorplot.scene.annotations import (
     CROSS,
     JOG,
@@ -288,20 +289,25 @@ def parts_of(scene: Scene) -> tuple[AssemblyPart, ...]:
     )
 
 
-def part_scenes(scene: Scene) -> tuple[Scene, ...]:
+def part_scenes(scene: object) -> tuple[Scene, ...]:
     """A scene of each part of an assembly, for a sheet of its own.
 
     Parameters
     ----------
-    scene : Scene
-        Its items are the parts: those of one group are one part, and those of one shape whose names differ by a number
-        at their end are the same part.
+    scene : Scene, path, Item, Mesh, surface, or several of these
+        See `io.scene_of`. Its items are the parts: those of one group are one part, and those of one shape whose names
+        differ by a number at their end are the same part.
 
     Returns
     -------
     tuple of Scene
         In the order of the list of parts; each has the name of its part as its title, and stands where the first of
         these parts stands.
+
+    Raises
+    ------
+    InputError
+        For what is no scene, and files that cannot be read.
 
     Notes
     -----
@@ -316,10 +322,11 @@ def part_scenes(scene: Scene) -> tuple[Scene, ...]:
     >>> [(one.title, len(one)) for one in vp.part_scenes(table)]
     [('leg', 1), ('top', 1)]
     """
-    items = {item.name: item for item in scene.items}
+    whole = scene_of(scene)
+    items = {item.name: item for item in whole.items}
     return tuple(
-        replace(scene, items=tuple(items[name] for name in part.pieces[0]), title=part.name, labels=(), explosion=None)
-        for part in parts_of(scene)
+        replace(whole, items=tuple(items[name] for name in part.pieces[0]), title=part.name, labels=(), explosion=None)
+        for part in parts_of(whole)
     )
 
 

@@ -149,9 +149,16 @@ def arranged_in(views: Sequence[SheetView], space: Floats, first_angle: bool, sc
         return Arrangement(tuple(replace(view, cell=closed[view.name]) for view in more), space)
 
     for view in (view for view in views if view.name not in cells):
+        # No place gives more than there is without the view: the first that gives as much is taken.
+        bound = _worth(tried(placed, cells), scales) if placed else math.inf
         placed.append(view)
-        wanted = wanted_cells(view.name, view.like, cells)
-        best = max(wanted, key=lambda cell: _worth(tried(placed, {**cells, view.name: cell}), scales))
+        best, most = (0, 0), -math.inf
+        for cell in wanted_cells(view.name, view.like, cells):
+            worth = _worth(tried(placed, {**cells, view.name: cell}), scales)
+            if worth > most:
+                best, most = cell, worth
+            if worth >= bound:
+                break
         cells[view.name] = best
     order = {view.name: number for number, view in enumerate(views)}
     return tried(sorted(placed, key=lambda view: order[view.name]), cells)

@@ -440,6 +440,7 @@ def technical_sheet(
     parts_list: bool = False,
     text: Literal["strokes", "real"] = "strokes",
     crease_angle_deg: float = 25.0,
+    shortest_mm: float | None = None,
     progress: Callable[[str, float], None] | None = None,
     explain: Callable[[StageReport], None] | None = None,
 ) -> Drawing:
@@ -513,6 +514,8 @@ def technical_sheet(
         See draw.
     crease_angle_deg : float
         See draw.
+    shortest_mm : float, optional
+        See draw: of what shows the part in every view.
     progress, explain : callable, optional
         See draw, for every view.
 
@@ -622,6 +625,7 @@ def technical_sheet(
     notes = part.notes(factor)
     _tell_left_out(annotations, notes.values())
     options = {"crease_angle_deg": crease_angle_deg, "text": text, "progress": progress, "explain": explain}
+    options["shortest_mm"] = shortest_mm
     drawer = _Views(part, factor, cut_spacing_mm, options)
     placed = {view.name: (view, place) for view, place in zip(arranged.views, arranged.middles(factor), strict=True)}
     written: dict[str, Floats] = {}

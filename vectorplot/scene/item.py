@@ -68,6 +68,14 @@ class SurfaceNormals:
         length = norm(turned)[:, None]
         return SurfaceNormals(self.mesh.transformed(matrix), turned / np.where(length > 0.0, length, 1.0), self.on_edge)
 
+    def has_faces_of(self, mesh: Mesh) -> bool:
+        """Whether the faces are those of a mesh of triangles, one by one; along sharp edges they may be taken apart, so
+        that each side has normals of its own."""
+        own = self.mesh
+        if not mesh.is_triangular or len(own.corners) != len(mesh.corners):
+            return False
+        return bool((own.vertices[own.corners] == mesh.vertices[mesh.corners]).all())
+
     @cached_property
     def triangles(self) -> PlacedTriangles:
         """The triangles of the mesh: what was divided and cut since is looked up in them, item after item."""
@@ -158,6 +166,9 @@ class Item(Movable["Item"]):
         The ends of those edges of a polyhedron that are drawn, none of the others (None: all).
     added_edges : (e, 2, 3) array of float, optional
         The ends of segments that are drawn as creases of a polyhedron besides its edges.
+    tangent_edges : (e, 2, 3) array of float, optional
+        The ends of those edges of a polyhedron that are drawn as tangent edges, besides drawn_edges: the faces of the
+        part that it stands for meet there without a crease.
     face_looks : FaceLooks, optional
         Colours and materials of single faces (None: all have those of the item).
 
@@ -193,6 +204,7 @@ class Item(Movable["Item"]):
     default_lines: tuple[str, ...] | None = None
     drawn_edges: Floats | None = None
     added_edges: Floats | None = None
+    tangent_edges: Floats | None = None
     face_looks: FaceLooks | None = None
 
     def __post_init__(self) -> None:
@@ -245,8 +257,8 @@ class Item(Movable["Item"]):
         fields = None if self.fields is None else self.fields.transformed(m)
         normals = None if self.normals is None else self.normals.transformed(m)
         looks = None if self.face_looks is None else self.face_looks.transformed(m)
-        listed = (self.drawn_edges, self.added_edges)
-        edges, added = (None if ends is None else matmul(ends, m[:3, :3].T) + m[:3, 3] for ends in listed)
+        listed = (self.drawn_edges, self.added_edges, self.tangent_edges)
+        edges, added, tangent = (None if ends is None else matmul(ends, m[:3, :3].T) + m[:3, 3] for ends in listed)
         return replace(
             self,
             shape=shape,
@@ -257,6 +269,7 @@ class Item(Movable["Item"]):
             normals=normals,
             drawn_edges=edges,
             added_edges=added,
+            tangent_edges=tangent,
             face_looks=looks,
         )
 

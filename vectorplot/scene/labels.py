@@ -360,13 +360,18 @@ class Measures:
         str
             The number, without its unit.
 
+        Raises
+        ------
+        InputError
+            For what is not finite.
+
         Examples
         --------
         >>> import vectorplot as vp
         >>> vp.Measures(decimals=3, zeros=True, per_unit=1 / 25.4, leading=False).length(12.7)
         '.500'
         """
-        value = world * self.per_unit
+        value = _finite(world) * self.per_unit
         if self.decimals is None:
             return self._written(f"{value:g}")
         step = Decimal(1).scaleb(-self.decimals)
@@ -388,17 +393,29 @@ class Measures:
         str
             The number, without a sign of degrees.
 
+        Raises
+        ------
+        InputError
+            For what is not finite.
+
         Examples
         --------
         >>> import vectorplot as vp
         >>> vp.Measures(comma=True).angle(22.5)
         '22,5'
         """
-        return self._written(f"{degrees:.4g}")
+        return self._written(f"{_finite(degrees):.4g}")
 
     def _written(self, text: str) -> str:
         text = text if self.leading or not text.startswith("0.") else text[1:]
         return text.replace(".", ",") if self.comma else text
+
+
+def _finite(value: float) -> float:
+    """The number, if it is finite. Errors: InputError."""
+    if not math.isfinite(value):
+        raise InputError(f"a measure of {value:g}: expected a finite number")
+    return value
 
 
 def renamed(label: Label, names: Mapping[str, str]) -> Label:

@@ -121,6 +121,11 @@ def _normals_of(item: Item) -> TrueNormals | None:
     known, points = item.normals, item.mesh.vertices
     if known is None or not len(points):
         return None
+    if len(known.mesh.vertices) > len(points) and known.has_faces_of(item.mesh):
+        order = item.mesh.corners, known.mesh.corners
+        normals, on_edge = np.zeros(points.shape), np.zeros(len(points), dtype=np.bool_)
+        normals[order[0]], on_edge[order[0]] = known.at_vertices[order[1]], known.on_edge[order[1]]
+        return TrueNormals(normals, on_edge, known.at_vertices[order[1]])
     place, corners, weights, _ = known.triangles.places(points)
     normals, on_edge = np.zeros(points.shape), np.ones(len(points), dtype=np.bool_)
     normals[place] = unit(np.einsum("kc,kcx->kx", weights, known.at_vertices[corners]))
@@ -457,6 +462,9 @@ sight rays: apart from outlines, borders and other items; fewer where borders of
 DEEPEST_MM, LEAST_DEEP = 1.0, 5.0
 """They are never farther off than this on the page, or so many tolerances: coarse nets take many cuts at outlines."""
 
+DEEP_IN_BANDS = 8.0
+"""And of surfaces that are painted in bands, on which borders of shadows run on from facet to facet."""
+
 STEEP, FLATTEST = 0.2, 0.35
 """Where sight rays come in with a smaller cosine than this, triangles may be off by less, in proportion, down to this
 part: along such rays the same gap leads to places farther away, which have other shades."""
@@ -644,10 +652,11 @@ def picture_fineness(
     allowed: Allowed,
     tolerance_mm: float,
     in_glass: Bools | None = None,
+    in_bands: Bools | None = None,
 ) -> Callable[[int], PictureFineness]:
     """What a picture of the scene asks of the triangles of its items, by their numbers. casts: whether its lights throw
     shadows; allowed: how far triangles may be off outlines, so that it is tolerance_mm on the page; in_glass (i,): the
-    items that are seen with their outlines elsewhere, too."""
+    items that are seen with their outlines elsewhere, too; in_bands (i,): those that are painted in bands of shade."""
     reached = Mesh(box_corners(scene.bounds), np.zeros(0, dtype=np.intp), np.zeros(1, dtype=np.intp))
     view = view_of(Scene((Item("box", reached),)), projection)
     lights = view_lights(view, scene.lights)
@@ -681,7 +690,9 @@ def picture_fineness(
         # Light goes through what is transparent: shadows fall on patterns only.
         dark = casts and (item.material.opacity >= 1.0 or bool(item.patterns))
         fine = (in_glass is not None and in_glass[number]) or len(doubles[number]) > MOST_DOUBLES
-        deep = np.array([1.0 if fine else min(DEEP_IN_LIGHT if dark else DEEP, most)])
+        banded = in_bands is not None and in_bands[number]
+        in_light = DEEP_IN_BANDS if banded else DEEP_IN_LIGHT
+        deep = np.array([1.0 if fine else min(in_light if dark else DEEP, most)])
         error, seen_from = shade_error(tolerance_mm), () if fine else doubles[number]
         return PictureFineness(view, (item,), lights, casts, deep, (near,), allowed, error, seen_from)
 

@@ -24,6 +24,7 @@ from vectorplot.shading.shaded_faces import (
     face_middles,
     face_normals,
     item_colours,
+    own_corners,
     plane_middles,
     point_shades,
     shows_inside,
@@ -215,11 +216,27 @@ def painted_normals(
     round_[plane[of_corner[turned]]] = True
     true = np.array([normals is not None for normals in given], dtype=np.bool_)[view.face_item]
     varied = _varied(view, items, lights, plane)[plane] if lights else np.zeros(view.face_count, dtype=np.bool_)
-    flat: Bools = np.asarray(~(round_[plane] | true), dtype=np.bool_)
+    level = _level(view, found, given, plane, count)[plane]
+    flat: Bools = np.asarray(~(round_[plane] | true) | level, dtype=np.bool_)
     found[:, (flat & ~varied)[of_corner]] = np.nan
     plain = (flat & varied)[of_corner]
     found[:, plain] = own[:, of_corner[plain]]
     return found
+
+
+def _level(view: View, found: Floats, given: Sequence[TrueNormals | None], plane: Ints, count: int) -> Bools:
+    """(p,) the regions of items with true normals at all corners that have one normal at all of these: flat faces."""
+    level = np.zeros(count, dtype=np.bool_)
+    items = [item for item, _ in own_corners(view, given)]
+    if not items:
+        return level
+    own = np.isin(view.face_item, items)
+    level[plane[own]] = True
+    region, corner = plane[ragged.owner(view.face_sizes)], np.flatnonzero(np.repeat(own, view.face_sizes))
+    first = np.zeros((3, count))
+    first[:, region[corner]] = found[:, corner]
+    level[region[corner][(found[:, corner] * first[:, region[corner]]).sum(axis=0) < FLAT_COSINE]] = False
+    return level
 
 
 def _wide(view: View) -> Bools:

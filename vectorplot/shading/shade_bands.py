@@ -705,8 +705,9 @@ class _Marching:
         """The bands as polygons."""
         key, start, end, kind = self._segments()
         order, offsets, ring_key, upper = _gathered(*_rings(key, start, end, kind))
-        position = start[order]
-        points = self._points()
+        points, position = self._points(), start[order]
+        of_coat = position >= points.shape[1]
+        position[of_coat] = self._coat[1][position[of_coat] - points.shape[1]]
         page = np.rint(self.shaded.on_page(points) / ROUNDED_MM) * ROUNDED_MM
         under = (kind[order] == 2) & (kind[order][ragged.preceding(offsets)] == 2)
         strict, loose = self._allowed(page)
@@ -765,21 +766,29 @@ class _Marching:
         part = self.part[a][of]
         bands = np.stack([band - under for under in range(OVER)])
         row, piece = np.nonzero(bands >= lowest[part])
-        return part[piece] * self._span + COAT + bands[row, piece], start[piece], end[piece], kind[piece]
+        key = np.asarray(part[piece] * self._span + COAT + bands[row, piece], dtype=np.intp)
+        return key, start[piece], end[piece], kind[piece]
+
+    @cached_property
+    def _coat(self) -> tuple[Ints, Ints]:
+        """What is coated: triangles (t,3) of nodes that are numbered on from all points, and the nodes they stand
+        for."""
+        coat, source = _without_pinches(replace(self.mesh, triangles=self.mesh.triangles[self.coated]))
+        return coat.triangles + len(self.level) + len(self.crossings[0]), source
 
     def _coats(self, lowest: Ints) -> tuple[Ints, Ints, Ints, Ints]:
         """The borders of what is coated, below the lowest bands of parts."""
-        number = self.sides[2][self.coated]
+        own, number = self._coat[0], self.sides[2][self.coated]
         once = np.bincount(number.ravel(), minlength=1)[number] == 1
         triangle, corner = np.nonzero(once)
-        own = self.mesh.triangles[self.coated]
-        a, b = own[triangle, corner], own[triangle, (corner + 1) % 3]
-        part = self.part[a]
-        return part * self._span + COAT + lowest[part] - COAT, a, b, np.zeros(len(a), dtype=np.intp)
+        part = self.part[self.mesh.triangles[self.coated][triangle, 0]]
+        key = part * self._span + COAT + lowest[part] - COAT
+        return key, own[triangle, corner], own[triangle, (corner + 1) % 3], np.zeros(len(key), dtype=np.intp)
 
     def _allowed(self, page: Floats) -> tuple[Floats, Floats]:
         """(k,) how far corners (2,k) may be beside the lines that are drawn without them where bands begin, and where
-        they end under the next ones. On borders all bands have the same corners, and keep them."""
+        they end under the next ones. On borders all bands have the same corners, and keep them but for what rounding
+        does to them."""
         one, other, number = self.sides
         side = self.crossings[0]
         inner = np.bincount(number.ravel(), minlength=len(one))[side] > 1
@@ -787,8 +796,9 @@ class _Marching:
         covered = self.mesh.covered
         hidden = covered[one[side]] & covered[other[side]]
         wide = self._band_widths(page)[side]
-        nodes, ends = np.where(covered, UNSEEN_MM, 0.0), (np.minimum(loose, THINNED * wide), THINNED_UNDER * wide)
-        begin, end = (np.where(hidden, UNSEEN_MM, np.where(inner, one, 0.0)) for one in ends)
+        least = 0.5 * ROUNDED_MM
+        nodes, ends = np.where(covered, UNSEEN_MM, least), (np.minimum(loose, THINNED * wide), THINNED_UNDER * wide)
+        begin, end = (np.where(hidden, UNSEEN_MM, np.where(inner, one, least)) for one in ends)
         return np.concatenate([nodes, begin]), np.concatenate([nodes, end])
 
     def _band_widths(self, page: Floats) -> Floats:
@@ -857,6 +867,10 @@ def _painting_order(bands: ShadeBands) -> Ints:
     return np.lexsort((bands.level, bands.lacking, np.bitwise_count(bands.lacking), bands.chart))
 
 
+VOTES = 3
+"""Corners of a ring that tell whether it is within another one: any of them may be on that."""
+
+
 def _doubled_areas(page: Floats, offsets: Ints) -> Floats:
     """(n,) twice the signed areas of rings (2,p)."""
     if not page.shape[1]:
@@ -867,26 +881,30 @@ def _doubled_areas(page: Floats, offsets: Ints) -> Floats:
 
 def _rings_within(page: Floats, offsets: Ints, group: Ints, one: Ints, other: Ints) -> tuple[Ints, Ints]:
     """Pairs of rings (2,p) of one group (n,), those of the one kind and those of the other within them, which they do
-    not cross: by where these begin."""
+    not cross, but may touch: by most of three corners."""
     if not len(one) or not len(other):
         return one[:0], other[:0]
     low, high = (extreme.reduceat(page, offsets[:-1], axis=1) for extreme in (np.minimum, np.maximum))
-    place = page[:, offsets[other]]
-    of_one, of_other = group[one].astype(np.float64), group[other].astype(np.float64)
-    boxes = np.vstack([of_one, low[:, one]]), np.vstack([of_one, high[:, one]])
-    pair, inner = overlapping_boxes(*boxes, *[np.vstack([of_other, place])] * 2)
-    pair = pair[distinct := one[pair] != other[inner]]
-    inner = inner[distinct]
-    within = np.zeros(len(pair), dtype=np.bool_)
-    for begin, end in ragged.batches(np.diff(offsets)[one[pair]], PAIRS_AT_ONCE):
-        corner, ends = ragged.take(offsets, one[pair[begin:end]])
+    below, above = (np.vstack([group, edge]) for edge in (low, high))
+    pair, inner = overlapping_boxes(below[:, one], above[:, one], below[:, other], above[:, other])
+    around, within = one[pair], other[inner]
+    wide = (low[:, around] <= low[:, within]).all(axis=0) & (high[:, around] >= high[:, within]).all(axis=0)
+    around, within = around[wide & (around != within)], within[wide & (around != within)]
+    votes = np.zeros(len(around), dtype=np.intp)
+    sizes = np.diff(offsets)
+    for begin, end in ragged.batches(sizes[around], PAIRS_AT_ONCE):
+        of = slice(begin, end)
+        corner, ends = ragged.take(offsets, around[of])
         (x, y), (u, v) = page[:, corner], page[:, corner[ragged.following(ends)]]
-        a, b = place[:, np.repeat(inner[begin:end], np.diff(ends))]
-        across = (y <= b) != (v <= b)
-        with np.errstate(divide="ignore", invalid="ignore"):
-            across &= x + (u - x) * (b - y) / (v - y) > a
-        within[begin:end] = np.add.reduceat(across, ends[:-1], dtype=np.intp) % 2 == 1
-    return one[pair[within]], other[inner[within]]
+        for part in range(VOTES):
+            place = page[:, offsets[within[of]] + part * sizes[within[of]] // VOTES]
+            a, b = np.repeat(place, np.diff(ends), axis=1)
+            across = (y <= b) != (v <= b)
+            with np.errstate(divide="ignore", invalid="ignore"):
+                across &= x + (u - x) * (b - y) / (v - y) > a
+            votes[of] += np.add.reduceat(across, ends[:-1], dtype=np.intp) % 2
+    found = 2 * votes > VOTES
+    return around[found], within[found]
 
 
 def _opened(offsets: Ints, rings: Ints, owner: Ints) -> tuple[Ints, Ints, Ints]:

@@ -8,7 +8,7 @@ Source: Glaeser, sections 4.5 and 8.5.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, fields, replace
 
 import numpy as np
@@ -365,10 +365,12 @@ BEYOND_EDGE = float(np.cos(np.radians(20.0)))
 @dataclass(frozen=True, eq=False)
 class TrueNormals:
     """What a surface tells of the vertices of a mesh in its place: at_vertices (v,3) unit normals of the world, zero
-    where it has none; on_edge (v,): those on sharp edges, with the normal of one side of them."""
+    where it has none; on_edge (v,): those on sharp edges, with the normal of one side of them; at_corners (c,3): those
+    of a mesh of triangles at their corners, if they are known on all sides of its edges."""
 
     at_vertices: Floats
     on_edge: Bools
+    at_corners: Floats | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -399,7 +401,25 @@ def view_normals(view: View, normals: Sequence[TrueNormals | None], crease_angle
             given[part] = matmul(own.at_vertices, view.axes.T)
             known[part] = True
             on_edge[part] = own.on_edge
-    return corner_normals(points, triangles, crease_angle_deg, given, known, on_edge, of_faces)
+    found = corner_normals(points, triangles, crease_angle_deg, given, known, on_edge, of_faces)
+    true = [(np.flatnonzero(view.face_item[face] == item), own) for item, own in own_corners(view, normals)]
+    if not true:
+        return found
+    which, every = np.concatenate([rows for rows, _ in true]), np.concatenate([own for _, own in true])
+    every, apex = matmul(every, view.axes.T), ~every.any(axis=1)
+    # Where the surface has no normal its triangles tell.
+    every[apex] = np.repeat(unit(mesh_face_normals(points, triangles[which])), 3, axis=0)[apex]
+    index = found.index.copy()
+    index[which] = len(found.normals) + np.arange(3 * len(which)).reshape(-1, 3)
+    return CornerNormals(np.concatenate([found.normals, every]), index)
+
+
+def own_corners(view: View, normals: Sequence[TrueNormals | None]) -> Iterator[tuple[int, Floats]]:
+    """The items with true normals at the corners of all of their faces in a view, and these (c,3)."""
+    count = np.bincount(view.face_item, minlength=len(normals))
+    for item, own in enumerate(normals):
+        if own is not None and own.at_corners is not None and len(own.at_corners) == 3 * count[item]:
+            yield item, own.at_corners
 
 
 def at_corners(view: View, normals: CornerNormals) -> Floats:

@@ -232,7 +232,7 @@ class Workers:
         """Those who answer a question, by its name."""
         if what == "movie":
             return self.movies
-        return self.pictures if what in ("picture", "frame", "save") else self.quick
+        return self.pictures if what in ("picture", "frame", "save", "sketch") else self.quick
 
     def close(self) -> None:
         """Stop all work, as Jobs does."""

@@ -18,6 +18,7 @@ from aiohttp import web
 
 from vectorplot.viewer.answers import ERRORS, Answers, json_bytes, told
 from vectorplot.viewer.pictures import SupersededError, Workers
+from vectorplot.viewer.sketches import Sketch
 
 HOST = "127.0.0.1"
 
@@ -35,6 +36,9 @@ STATIC = {"": ("index.html", "text/html"), "viewer.css": ("viewer.css", "text/cs
 
 FILM_FILES = {"viewer.css": "text/css", "icon.svg": "image/svg+xml", "film.js": "text/javascript"}
 """The files of the page that shows a film, but for itself and the film, and their media types."""
+
+SKETCH_FILES = {"viewer.css": "text/css", "icon.svg": "image/svg+xml", "sketch.js": "text/javascript"}
+"""The same of the page of a sketch."""
 
 HEADERS = {
     "Content-Security-Policy": (
@@ -60,7 +64,7 @@ class Server:
     """The page, what it asks for, and when it ends; pages: files by the ends of their addresses, each with its media
     type; without answers the page asks for nothing."""
 
-    answers: Answers | None
+    answers: Answers | Sketch | None
     pages: Mapping[str, tuple[bytes, str]] = field(default_factory=lambda: viewer_pages())
     token: str = field(default_factory=lambda: secrets.token_urlsafe(18))
     workers: Workers = field(default_factory=Workers)
@@ -79,8 +83,9 @@ class Server:
             app.router.add_get(f"{base}/{name}", self._file)
         app.router.add_get(f"{base}/alive", self._alive)
         app.router.add_post(f"{base}/quit", self._quit)
-        if self.answers is not None:
+        if isinstance(self.answers, Answers):
             app.router.add_post(f"{base}/ask/movie", partial(self._movie, self.answers))
+        if self.answers is not None:
             app.router.add_post(f"{base}/ask/{{what}}", partial(self._ask, self.answers))
         return app
 
@@ -120,7 +125,7 @@ class Server:
         self.stop.set()
         return web.json_response({})
 
-    async def _ask(self, answers: Answers, request: web.Request) -> web.Response:
+    async def _ask(self, answers: Answers | Sketch, request: web.Request) -> web.Response:
         what = request.match_info["what"]
         answer = answers.by_name(what)
         if answer is None:
@@ -224,6 +229,17 @@ async def serve_film(
     pages = {"": (page.encode(), "text/html"), "film.svg": (svg, "image/svg+xml")}
     pages |= {name: (_page_file(name), kind) for name, kind in FILM_FILES.items()}
     await _served(Server(None, pages), started, timeout_s)
+
+
+async def serve_sketch(sketch: Sketch, started: Callable[[str], None], timeout_s: float | None) -> None:
+    """Serve a page that shows what a sketch draws, and sliders for its parameters, as serve does."""
+    await _served(Server(sketch, sketch_pages(sketch)), started, timeout_s)
+
+
+def sketch_pages(sketch: Sketch) -> dict[str, tuple[bytes, str]]:
+    """The files of the page of a sketch."""
+    page = _page_file("sketch.html").decode().format(title=escape(sketch.path.name, quote=True))
+    return {"": (page.encode(), "text/html")} | {name: (_page_file(name), kind) for name, kind in SKETCH_FILES.items()}
 
 
 def viewer_pages() -> dict[str, tuple[bytes, str]]:

@@ -12,6 +12,7 @@ from ezdxf.path import make_path
 
 import vectorplot as vp
 from vectorplot.backends.dxf import dxf_bytes
+from vectorplot.geometry import prism
 from vectorplot.surfaces import Sphere
 
 
@@ -96,3 +97,33 @@ def test_straight_lines_of_smooth_surfaces_are_lines_and_closed_curves_closed_sp
     assert found == {"LWPOLYLINE", "CIRCLE"}
     outline = read_back(vp.draw(vp.read("data/implicit.scene"), lines="outline")).modelspace()
     assert [entity.dxftype() for entity in outline] == ["SPLINE"] * 4 and all(entity.closed for entity in outline)
+
+
+def rounded_plate(corner, sides):
+    """A plate with round corners, each of so many sides, seen from above on a page in its own size."""
+    angles = np.linspace(0, np.pi / 2, sides + 1)
+    ring = []
+    for k, (x, y) in enumerate([(30, 15), (-30, 15), (-30, -15), (30, -15)]):
+        turn = angles + k * np.pi / 2
+        ring.append(np.stack([x + corner * np.cos(turn), y + corner * np.sin(turn), 0 * turn], axis=1))
+    plate = vp.Item("plate", prism(np.concatenate(ring), (0, 0, 4)))
+    camera = vp.Camera((0, 0, 100), (0, 0, 2), up=(0, 1, 0), parallel=True, height=60)
+    return vp.draw(plate, camera, page=vp.Page(100, 60, 0), fit=False, lines="outline", curves="arcs")
+
+
+def test_straight_lines_and_arcs_in_turn_are_one_polyline_with_bulges():
+    drawing = rounded_plate(8, 12)
+    (line,) = read_back(drawing).modelspace()
+    corners = np.array([point[:] for point in line.get_points("xyb")])
+    assert line.dxftype() == "LWPOLYLINE" and line.closed
+    arcs = corners[:, 2] != 0
+    assert arcs.sum() == (~arcs).sum() == 4
+    assert corners[arcs, 2] == pytest.approx(np.tan(np.pi / 8), abs=1e-3)
+    ends = np.roll(corners[:, :2], -1, axis=0)
+    chords = np.linalg.norm(ends - corners[:, :2], axis=1)
+    assert sorted(chords) == pytest.approx(sorted([*[8 * 2**0.5] * 4, 60, 60, 30, 30]), abs=2e-3)
+
+
+def test_corners_of_few_sides_stay_polygons():
+    (line,) = read_back(rounded_plate(8, 2)).modelspace()
+    assert line.dxftype() == "LWPOLYLINE" and not any(bulge for *_, bulge in line.get_points("xyb"))

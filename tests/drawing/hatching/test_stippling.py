@@ -8,6 +8,7 @@ from scipy.spatial import cKDTree
 
 import vectorplot as vp
 from vectorplot.drawing import Fills, hatched_fills
+from vectorplot.drawing.hatching import nearest_dots
 
 FLAT = np.eye(4)
 RING = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]) * 20.0
@@ -56,3 +57,16 @@ def test_dots_are_the_same_in_every_run_and_none_is_made_of_nothing() -> None:
 def test_impossible_stipplings_are_refused(wrong: dict) -> None:
     with pytest.raises(vp.InputError, match="stippling"):
         vp.Stippling(**wrong)
+
+
+@pytest.mark.parametrize("count", [1, 2, 5, 40, 300])
+def test_the_nearest_dots_are_the_nearest_whatever_was_guessed(count: int) -> None:
+    """Dots in heaps, some in one place, and places next to any of them: distances are the smallest ones of all."""
+    random = np.random.default_rng(count)
+    dots = random.normal(size=(count, 2)) ** 3
+    dots[: count // 4] = dots[0]
+    places = random.normal(size=(400, 2)) ** 3
+    far = np.hypot(*(places[:, None] - dots).transpose(2, 0, 1))
+    for guess in (random.integers(0, count, len(places)), far.argmin(axis=1)):
+        near = nearest_dots(places, dots, guess)
+        assert np.allclose(far[np.arange(len(places)), near], far.min(axis=1), rtol=1e-12, atol=0.0)

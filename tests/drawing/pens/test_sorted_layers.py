@@ -135,12 +135,16 @@ def test_layers_that_are_not_plotted_stay_beside_those_of_pens():
     assert told == [("background", False), ("0.3 #000000", True), ("hidden", False)]
 
 
-def test_texts_stand_on_the_layer_of_their_pen_and_colour_bars_on_their_own():
+def test_texts_and_the_strokes_of_colour_bars_stand_on_the_layer_of_their_pen():
     (layer,) = vp.draw(CUBE, "iso", layers="pen", pens="0.3", title="I", text="real").layers
     assert len(layer.texts) == 1 and len(layer.strokes) == 1
     scene = replace(vp.Scene((CUBE,)), colouring=Colouring("z"))
-    names = [layer.name for layer in vp.draw(scene, "iso", layers="pen", pens="0.3").layers]
-    assert names[-1] == "colour bar" and len(names) == len(set(names))
+    layers = vp.draw(scene, "iso", layers="pen", pens="0.3").layers
+    names = [layer.name for layer in layers]
+    (bar,) = (layer for layer in layers if layer.name == "colour bar")
+    assert len(names) == len(set(names)) and not bar.strokes and len(bar.fills[0]) == 24
+    letters = next(layer for layer in layers if layer.name == "0.18 #000000")
+    assert letters.strokes[0].points[:, 0].max() > bar.fills[0].points[:, 0].max()
 
 
 def test_each_step_of_depth_is_a_pen():

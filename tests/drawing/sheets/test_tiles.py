@@ -12,8 +12,10 @@ import vectorplot as vp
 from vectorplot.cli.commands.draw import draw
 from vectorplot.drawing import tiled
 from vectorplot.drawing.dashes import stroke_lengths
+from vectorplot.drawing.fills import Fills
 from vectorplot.drawing.tiles import ARM_MM, MARGIN_MM
 from vectorplot.errors import InputError
+from vectorplot.geometry import polygons_of
 
 
 def page(*lines, width=120.0, height=60.0, **more):
@@ -87,6 +89,45 @@ def test_the_matrix_of_a_sheet_takes_points_of_the_world_to_it():
         for paths in (paths for layer in sheet.layers[1:] for paths in layer.strokes):
             image = np.column_stack([paths.points3d, np.ones(len(paths.points))]) @ sheet.page_from_world.T
             assert image[:, :2] / image[:, 3:] == pytest.approx(paths.points, abs=1e-3)
+
+
+@pytest.mark.slow
+def test_filled_polygons_are_cut_and_cover_the_page_together():
+    whole = vp.paint("data/cubes.scene", page="A5", lines="contour")
+    sheets = tiled(whole, 2, 2)
+    wide, high = whole.width_mm / 2, whole.height_mm / 2
+    area = 0.0
+    for sheet in (sheet for row in sheets for sheet in row):
+        (fills,) = sheet.layers[1].fills
+        inside = fills.points - MARGIN_MM
+        assert inside.min() >= -1e-9 and (inside.max(axis=0) <= [wide + 1e-9, high + 1e-9]).all()
+        area += shapely.area(polygons_of(fills.points.T, fills.offsets)).sum()
+        image = np.column_stack([fills.points3d, np.ones(len(fills.points))]) @ sheet.page_from_world.T
+        faces = np.repeat(fills.item >= 0, np.diff(fills.offsets))
+        assert (image[:, :2] / image[:, 3:])[faces] == pytest.approx(fills.points[faces], abs=1e-6)
+    (fills,) = whole.layers[0].fills
+    assert area == pytest.approx(shapely.area(polygons_of(fills.points.T, fills.offsets)).sum(), rel=1e-9)
+
+
+def test_lines_among_fills_and_shades_are_cut_where_they_are():
+    points = np.array([(0.0, 30), (120, 30), (0, 0), (120, 0), (120, 60)])
+    colours = np.array([(9, 9, 9)] * 2 + [(0, 0, 0), (120, 0, 0), (120, 0, 0)], dtype=np.uint8)
+    none = np.array([-1, -1])
+    fills = Fills(points, np.array([0, 2, 5]), colours, np.ones(2), none, np.zeros((5, 3)), none + 1)
+    left, right = (
+        sheet.layers[1].fills[0] for sheet in tiled(vp.Drawing(120, 60, (vp.Layer("a", vp.Pen(), (fills,)),)), 2, 1)[0]
+    )
+    assert np.diff(left.offsets).tolist() == [2, 3] and np.diff(right.offsets).tolist() == [2, 4]
+    for fills, low in ((left, 0.0), (right, 60.0)):
+        x = fills.points[fills.offsets[1] :, 0] - MARGIN_MM + low
+        assert fills.colours[fills.offsets[1] :, 0].tolist() == np.rint(x).tolist()
+
+
+@pytest.mark.slow
+def test_real_texts_are_on_the_sheets_that_they_reach():
+    whole = vp.draw("data/house.scene", page="A5", title="House", text="real")
+    found = [[sum(map(len, sheet.layers[-1].texts)) for sheet in row] for row in tiled(whole, 2, 2)]
+    assert found == [[0, 0], [1, 1]]
 
 
 @pytest.mark.parametrize("wrong", [(0, 1), (1, -1), (51, 1), (1.5, 1)])

@@ -52,14 +52,25 @@ def test_circles_seen_from_the_side_are_ellipses_and_parts_of_circles_arcs(axes,
 
 
 def test_nuts_and_what_is_not_round_stay_polygons(tmp_path):
-    bent = polygon(48)
-    bent[7] += 0.01
-    few = polygon(48)[np.r_[0:20, 24:48]]
-    others = (polygon(6), polygon(10), bent, few, np.array([(0.0, 0.0), (90.0, 0.0), (90.0, 90.0)]))
+    others = (polygon(6), polygon(10), np.array([(0.0, 0.0), (90.0, 0.0), (90.0, 90.0)]))
     layer = rounded(*others)
     assert rounding_error_mm([layer]) is None
     assert {one.dxftype() for one in kinds_in_dxf(layer, tmp_path)} == {"LWPOLYLINE"}
     assert kinds_in_dxf(rounded(polygon(12)), tmp_path)[0].dxftype() == "CIRCLE"
+
+
+def test_of_a_circle_that_is_not_whole_the_rest_stays_straight(tmp_path):
+    bent = polygon(48)
+    bent[7] += 0.01
+    for ring, straight in ((polygon(48)[np.r_[0:20, 24:48]], 1), (bent, 2)):
+        layer = rounded(ring)
+        (line,) = kinds_in_dxf(layer, tmp_path)
+        bulges = np.array([point[2] for point in line.get_points("xyb")])
+        assert line.dxftype() == "LWPOLYLINE" and line.closed and (bulges == 0.0).sum() == straight
+        turned = 4.0 * np.arctan(bulges).sum()
+        lost = 5 if straight == 1 else 2
+        assert turned == pytest.approx(2 * np.pi * (48 - lost) / 48, abs=1e-2)
+        assert 0.04 < rounding_error_mm([layer]) < 0.06
 
 
 def test_smooth_strokes_stay_as_they_are_beside_polygons():

@@ -116,3 +116,27 @@ def test_explain_tells_how_many_specks_are_gone_and_nothing_where_there_are_none
 def test_a_length_that_is_none_is_one_sentence(wrong):
     with pytest.raises(InputError, match="shortest"):
         vp.draw("data/house.scene", shortest_mm=wrong)
+
+
+@pytest.mark.parametrize("fills", ["painted", "erasing"])
+@pytest.mark.slow
+def test_short_lines_over_painted_faces_are_left_out(fills):
+    how = {"page": "A5", "lines": "contour,crease", "fills": fills}
+    usual, without = (vp.paint("data/table.scene", **how, shortest_mm=short) for short in (None, 8.0))
+    if fills == "painted":
+        lengths = [[stroke_lengths(p) for layer in one.layers for p in layer.strokes] for one in (usual, without)]
+        assert np.concatenate(lengths[0]).min() < 7.0 and np.concatenate(lengths[1]).min() >= 8.0
+    else:
+        ends = [int((np.diff(one.layers[0].fills[0].offsets) == 2).sum()) for one in (usual, without)]
+        assert ends[1] < ends[0]
+
+
+@pytest.mark.slow
+def test_short_lines_over_pixels_and_on_sheets_are_left_out():
+    how = {"size": (160, 120), "samples": 1, "lines": "contour,crease"}
+    pictures = [vp.render("data/table.scene", **how, shortest_mm=short).pixels for short in (None, 1000.0)]
+    bare = vp.render("data/table.scene", **{**how, "lines": ()}).pixels
+    assert (pictures[1] == bare).all() and (pictures[0] != bare).any()
+    sheets = [vp.technical_sheet("data/table.scene", block=False, shortest_mm=short) for short in (None, 15.0)]
+    counts = [sum(len(p) for layer in sheet.layers for p in layer.strokes) for sheet in sheets]
+    assert 0 < counts[1] < counts[0]

@@ -121,7 +121,7 @@ def test_assemblies_stand_in_assemblies_and_intersections_in_them():
         ("A box 1 1 1 ring 1000 ring 1000", 1, "more than 100000 copies"),
         ("A box 1 1 1\nassembly B box 1 1 1", 2, "assembly: expected 'end'"),
         ("assembly camera eye 1 1 1 end", 1, "assembly: expected an item"),
-        ("A box 1 1 1 end", 1, "'end' without 'assembly'"),
+        ("A box 1 1 1 end", 1, "'end' without 'assembly' or 'union'"),
         ("assembly " * 20, 1, "more than 16 in one another"),
         ("assembly A surface sphere 1 isophotes 3 lit_by 1 end ring 2 light position 1 1 1", 1, "cannot be moved"),
     ],

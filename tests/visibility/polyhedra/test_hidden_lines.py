@@ -11,10 +11,17 @@ from support.effort import several
 from support.hard_shapes import HARD_SHAPES
 from support.seen import EVERY_EDGE, Seen, seen, wrong_samples
 
+from vectorplot.geometry.budget import unheard
 from vectorplot.geometry.camera import Camera
 from vectorplot.scene.item import Item
 from vectorplot.scene.scene import Scene
+from vectorplot.scene.view import look
 from vectorplot.testing.shapes import hollow_bodies, random_convex_solids, rotated_boxes
+from vectorplot.visibility.polyhedra import hidden_lines
+from vectorplot.visibility.polyhedra.hidden_lines import Segments, visible_parts
+from vectorplot.visibility.polyhedra.lines import edge_lines
+from vectorplot.visibility.projected_faces import project_faces
+from vectorplot.words import LineKind
 
 
 def cameras(scene: Scene, seed: int) -> Iterator[Camera]:
@@ -155,3 +162,20 @@ def moved(item: Item, matrix: np.ndarray, offset: np.ndarray) -> Item:
 
 def scaled(point: tuple[float, float, float], scale: float) -> tuple[float, float, float]:
     return (point[0] * scale, point[1] * scale, point[2] * scale)
+
+
+@pytest.mark.slow
+def test_intervals_that_become_one_amid_the_work_are_those_that_do_at_its_end(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Lines of a crowd, each hidden by many things, by some of them together."""
+    scene = rotated_boxes(120, 3)
+    view = look(scene, Camera((9.0, 10.0, 8.0), (0.0, 0.0, 0.0)))
+    faces = project_faces(view)
+    solid = np.zeros(len(scene.items), dtype=np.bool_)
+    lines = edge_lines(scene, view, faces, frozenset({LineKind.EDGES}), 25.0, ~solid)
+    segments = Segments(lines.start, lines.end)
+    whole = visible_parts(view, faces, solid, segments, unheard)
+    monkeypatch.setattr(hidden_lines, "INTERVALS_AT_ONCE", 50)
+    often = visible_parts(view, faces, solid, segments, unheard)
+    assert (whole.segment == often.segment).all()
+    assert (whole.low == often.low).all() and (whole.high == often.high).all()
+    assert 0 < len(whole) < len(segments)

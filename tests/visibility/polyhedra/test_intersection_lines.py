@@ -8,7 +8,9 @@ import numpy as np
 import pytest
 
 import vectorplot as vp
-from vectorplot.testing.shapes import box, rotated_boxes
+from vectorplot.features.mesh_edge_lines import Faces
+from vectorplot.features.mesh_intersections import _part_boxes, _within_hollow, face_intersections
+from vectorplot.testing.shapes import box, bumpy_icosphere, rotated_boxes
 from vectorplot.visibility.polyhedra.lines import intersection_lines
 from vectorplot.visibility.polyhedra.occluders import solid_items
 from vectorplot.visibility.projected_faces import project_faces
@@ -55,3 +57,23 @@ def test_faces_that_turn_away_are_left_out_of_solids_whose_outline_is_drawn() ->
     assert 0 < 2 * some < every
     kinds -= {vp.LineKind.CONTOUR}
     assert len(intersection_lines(scene, view, faces, kinds, solid, ~solid)) == every
+
+
+@pytest.mark.parametrize(
+    ("size", "place", "meet"), [(0.8, 0.0, False), (0.8, 0.1, False), (0.8, 0.3, True), (0.99, 0.0, True)]
+)
+def test_shells_in_each_other_meet_where_no_ball_keeps_them_apart(size: float, place: float, meet: bool) -> None:
+    """Balls of triangles of radius 1 and less: the planes of the outer one leave a ball of about 0.99 free."""
+    outer, inner = bumpy_icosphere(2, 0.0), bumpy_icosphere(2, 0.0)
+    turned = inner.vertices @ np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]) * size + (place, 0.0, 0.0)
+    both = np.concatenate([outer.vertices, turned])
+    triangles = outer.corners.reshape(-1, 3)
+    mesh = vp.Mesh.from_triangles(both, np.concatenate([triangles, triangles + len(outer.vertices)]))
+    faces = Faces(mesh.vertices.T, mesh.corners, mesh.offsets, np.zeros(len(mesh.corners), dtype=bool), None)
+    part = np.repeat([0, 1], len(triangles))
+    low, high = _part_boxes(faces, part, 2)
+    one, two = np.array([0]), np.array([1])
+    free = _within_hollow(faces, part, (low, high), one, two, 1e-9)
+    found = face_intersections(faces, part, 1e-9)
+    assert free.tolist() == [not meet]
+    assert (len(found.one) > 0) == meet

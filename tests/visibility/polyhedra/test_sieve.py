@@ -55,8 +55,9 @@ def test_every_pair_that_clipping_keeps_is_found_in_a_cell_and_passes_the_sieve(
     real = hits.pair[(hits.high - hits.low > 100.0 * tolerance) & (pieces.farthest > 0.0)[piece[hits.pair]]]
     assert len(real) > 50
     assert np.isin(real, early_rejection(view, grid, pieces, occluders).passing(piece, occluder)).all()
-    for most in (0, 1 << 30):
-        entries = entered(view, grid, occluders, np.arange(len(occluders)), most)
+    cells = int(grid.first[-1])
+    for held in (np.zeros(cells, dtype=int), grids.held(grid, pieces), np.full(cells, 1 << 30)):
+        entries = entered(view, grid, occluders, np.arange(len(occluders)), held)
         met = set()
         for level in range(grid.levels):
             at = grid.numbers(pieces.column >> level, pieces.row >> level, level)
@@ -72,6 +73,17 @@ def test_a_long_thin_thing_is_entered_in_few_cells():
     view, _, grid, _, occluders = _prepared(bars(300), vp.Camera((30.0, -20.0, 18.0), target=(5.0, 5.0, 5.0)))
     right, top = grid.left + grid.cell * int(grid.columns[0]), grid.bottom + grid.cell * int(grid.rows[0])
     fine = grids.Grid.over((grid.left, right, grid.bottom, top), grid.cell / 16.0)
-    entries = entered(view, fine, occluders, np.arange(len(occluders)), 1 << 30)
+    crowded = np.full(int(fine.first[-1]), 1 << 30)
+    entries = entered(view, fine, occluders, np.arange(len(occluders)), crowded)
     _, column, _ = grids.touched(fine, occluders.box, np.zeros(len(occluders), dtype=int))
     assert len(entries.thing) < 0.06 * len(column)
+
+
+def test_cells_hold_as_many_pieces_as_lie_in_them_on_every_level():
+    _, _, grid, pieces, _ = _prepared(bars(60), vp.Camera((30.0, -20.0, 18.0), target=(5.0, 5.0, 5.0)))
+    held = grids.held(grid, pieces)
+    for level in range(grid.levels):
+        cell = grid.numbers(pieces.column >> level, pieces.row >> level, level)
+        inside = held[grid.first[level] : grid.first[level + 1]]
+        assert (np.bincount(cell - grid.first[level], minlength=len(inside)) == inside).all()
+        assert inside.sum() == len(pieces)

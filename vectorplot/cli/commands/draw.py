@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from vectorplot.cli.option_values import of_option, place, tiles
+from vectorplot.cli.option_values import of_option, place
 from vectorplot.cli.options import (
     BACKGROUND,
     DEPTH_CUE,
@@ -18,8 +18,10 @@ from vectorplot.cli.options import (
     HATCHING_OPTIONS,
     LAYERS,
     PAGE_OPTIONS,
+    SHORTEST,
     STROKE_OPTIONS,
     TEXT,
+    TILES,
     TITLE,
     TOLERANCE,
     crease_angle_option,
@@ -82,19 +84,8 @@ if TYPE_CHECKING:
         metavar="MM",
         help="Longer strokes leave in parts.  [default: whole]",
     ),
-    click.option(
-        "--shortest",
-        "shortest_mm",
-        type=of_option("shortest_mm"),
-        metavar="MM",
-        help="Shorter strokes are left out.  [default: those below 0.05 that are alone]",
-    ),
-    click.option(
-        "--tiles",
-        type=tiles,
-        metavar="CxR",
-        help="Also the page in C x R parts, with registration marks, as OUT-ROW-COLUMN.",
-    ),
+    SHORTEST,
+    TILES,
     click.option(
         "--certificate",
         type=click.Path(dir_okay=False),
@@ -103,8 +94,8 @@ if TYPE_CHECKING:
     ),
 )
 def draw(scene: Scene, **told: Any) -> Drawing:
-    """Draw INPUT, a scene file (- for stdin), mesh (obj, stl, ply, off, glb, vtk, vtu), molecule (xyz, pdb, cif) or
-    terrain (asc, xyz), and write OUT (svg, ps, eps, pdf, png, tex, dxf, json).
+    """Draw INPUT, a scene file (- for stdin), mesh (obj, stl, ply, off, glb, vtk, vtu), CAD part (step, iges, brep),
+    molecule (xyz, pdb, cif) or terrain (asc, xyz), and write OUT (svg, ps, eps, pdf, png, tex, dxf, json).
 
     Camera options replace the fields of the camera in the scene file one by one.
     """

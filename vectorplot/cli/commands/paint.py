@@ -18,7 +18,9 @@ from vectorplot.cli.options import (
     LIGHTS,
     OVERLAID_OPTIONS,
     PAGE_OPTIONS,
+    SHORTEST,
     TEXT,
+    TILES,
     TITLE,
     TOLERANCE,
     crease_angle_option,
@@ -56,10 +58,12 @@ if TYPE_CHECKING:
     FRAME,
     TEXT,
     FONT,
+    SHORTEST,
+    TILES,
 )
 def paint(scene: Scene, **told: Any) -> Drawing:
-    """Paint INPUT, a scene file (- for stdin), mesh (obj, stl, ply, off, glb, vtk, vtu), molecule (xyz, pdb, cif) or
-    terrain (asc, xyz), and write OUT (svg, ps, eps, pdf, png, tex, dxf, json).
+    """Paint INPUT, a scene file (- for stdin), mesh (obj, stl, ply, off, glb, vtk, vtu), CAD part (step, iges, brep),
+    molecule (xyz, pdb, cif) or terrain (asc, xyz), and write OUT (svg, ps, eps, pdf, png, tex, dxf, json).
 
     Camera options replace the fields of the camera in the scene file one by one.
     """

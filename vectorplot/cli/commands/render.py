@@ -13,6 +13,7 @@ from vectorplot.cli.options import (
     EXPOSURE,
     LIGHTS,
     OVERLAID_OPTIONS,
+    SHORTEST,
     crease_angle_option,
     fit_option,
     lines_option,
@@ -75,12 +76,13 @@ FORMATS = ("png",)
     crease_angle_option("Sharper edges stay sharp."),
     lines_option("Lines on top"),
     *OVERLAID_OPTIONS,
+    SHORTEST,
     DEPTH_CUE,
     BACKGROUND,
 )
 def render(scene: Scene, **told: Any) -> Image:
-    """Render INPUT, a scene file (- for stdin), mesh (obj, stl, ply, off, glb, vtk, vtu), molecule (xyz, pdb, cif) or
-    terrain (asc, xyz), as a PNG picture OUT.
+    """Render INPUT, a scene file (- for stdin), mesh (obj, stl, ply, off, glb, vtk, vtu), CAD part (step, iges, brep),
+    molecule (xyz, pdb, cif) or terrain (asc, xyz), as a PNG picture OUT.
 
     Camera options replace the fields of the camera in the scene file one by one.
     """

@@ -20,7 +20,9 @@ from vectorplot.cli.options import (
     MEASURE_OPTIONS,
     OUT,
     QUIET,
+    SHORTEST,
     TEXT,
+    UNIT,
     VIEW_WORDS,
     check_overlaid,
     crease_angle_option,
@@ -39,9 +41,10 @@ if TYPE_CHECKING:
 
 def _name_of_mesh(path: str) -> str:
     """The name of a file without its suffix, where the file has no title of its own to say."""
+    from vectorplot.io.read_file import CAD_SUFFIXES
     from vectorplot.io.read_mesh import MESH_SUFFIXES
 
-    return Path(path).stem if Path(path).suffix.lower() in MESH_SUFFIXES else ""
+    return Path(path).stem if Path(path).suffix.lower() in (*MESH_SUFFIXES, *CAD_SUFFIXES) else ""
 
 
 _OF_ASSEMBLY = {"title": None, "section": (), "detail_view": (), "breakout": (), "balloons": False, "parts_list": False}
@@ -71,12 +74,7 @@ def _field(text: str) -> tuple[str, str]:
         metavar="A:B",
         help="Mm on paper for units of the part; fit: the largest of ISO 5455.",
     ),
-    click.option(
-        "--unit",
-        type=click.Choice(["mm", "cm", "m", "in"]),
-        default="mm",
-        help="What a unit of the part is; sections, details and the scale are in mm whatever it is.",
-    ),
+    UNIT,
     click.option(
         "--standard",
         type=click.Choice(["iso", "asme"]),
@@ -145,6 +143,7 @@ def _field(text: str) -> tuple[str, str]:
     EXPLODE,
     TEXT,
     crease_angle_option("Sharper edges are creases."),
+    SHORTEST,
     EXPLAIN,
     QUIET,
 )

@@ -35,11 +35,28 @@ PAGE_SHOWN_OPTIONS = (
     metavar="NAME",
     help="Where recordings go: NAME.vd1 and NAME.vd2 in the folder video, or an .mp4, .svg, .pdf; with -a: record it.",
 )
+@click.option(
+    "--sketch-timeout",
+    type=between(0.1, 1e6),
+    default=30.0,
+    metavar="S",
+    help="A sketch may take so many seconds each time.  [default: 30]",
+)
 @PAGE_SHOWN_OPTIONS[0]
 @PAGE_SHOWN_OPTIONS[1]
-def try_(scene_file: str, animation: str | None, video: str | None, no_browser: bool, timeout: float | None) -> None:
+def try_(
+    scene_file: str,
+    animation: str | None,
+    video: str | None,
+    sketch_timeout: float,
+    no_browser: bool,
+    timeout: float | None,
+) -> None:
     """Show SCENE, any file that draw takes, in a web page on this machine: turned by mouse and keys, drawn with exact
     hidden lines, painted or shaded, edited beside its picture, and saved as PS, SVG, PDF, DXF or PNG.
+
+    SCENE may be a sketch, a Python file with a function sketch: it is run whenever the file changes, and the page has a
+    slider for each parameter of the function.
 
     A file without a folder is looked for in the current one, then in data/, then among the samples that came with
     vectorplot; its suffix .scene may be left out.
@@ -47,6 +64,11 @@ def try_(scene_file: str, animation: str | None, video: str | None, no_browser: 
     page records what one does there.
     Ctrl-C stops it, and q in the page.
     """
+    if Path(scene_file).suffix.lower() == ".py":
+        if animation is not None or video is not None:
+            raise click.UsageError("a sketch has no animation: --animation and --video do not go with it")
+        _try_sketch(Path(scene_file), sketch_timeout, no_browser, timeout)
+        return
     from vectorplot.io.named_files import data_file
     from vectorplot.viewer.pictures import Source
 
@@ -70,6 +92,21 @@ def try_(scene_file: str, animation: str | None, video: str | None, no_browser: 
     source.scene(None)
 
     asyncio.run(serve(Answers(source, film, file), partial(show_address, no_browser=no_browser), timeout))
+
+
+def _try_sketch(path: Path, each_s: float, no_browser: bool, timeout: float | None) -> None:
+    """Show what a sketch draws. Errors: InputError where there is no such file."""
+    from vectorplot.errors import InputError
+
+    if not path.is_file():
+        raise InputError("there is no such file", file=str(path))
+    check_viewer("try")
+    import asyncio
+
+    from vectorplot.viewer.server import serve_sketch
+    from vectorplot.viewer.sketches import Sketch
+
+    asyncio.run(serve_sketch(Sketch(path, each_s), partial(show_address, no_browser=no_browser), timeout))
 
 
 def check_viewer(what: str) -> None:

@@ -399,6 +399,9 @@ MOST_OVERLAPS = 32
 """So many times as many pairs of overlapping boxes as there are polygons are looked at at most: what lies in heaps in
 the image is not worth more."""
 
+FEW_OVERLAPS = 1 << 20
+"""Or so many pairs, however few polygons there are."""
+
 MOST_TURNS = 8
 """So many times polygons of planes are moved both ways at most."""
 
@@ -492,7 +495,7 @@ def overlapping_pairs(faces: ImageFaces, some: Ints, tolerance: float) -> tuple[
         pair = np.stack([np.minimum(some[number], other), np.maximum(some[number], other)])
         pair = pair[:, pair[0] < pair[1]]
         count += pair.shape[1]
-        if count > MOST_OVERLAPS * len(faces):
+        if count > max(MOST_OVERLAPS * len(faces), FEW_OVERLAPS):
             known = int(number[0])
             break
         found.append(pair[:, overlapping(outlines, pair[0], pair[1], tolerance)])

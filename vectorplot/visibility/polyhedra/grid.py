@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +16,7 @@ from vectorplot.geometry.records import IN_COLUMNS, Elements
 from vectorplot.tolerances import SMALLEST_CELL
 
 Floats32 = NDArray[np.float32]
+Number = TypeVar("Number", np.float32, np.intp)
 
 MAX_CELLS = 1 << 20
 """Of the finest grid."""
@@ -193,13 +195,23 @@ def deepest(grid: Grid, pieces: Pieces) -> Floats32:
     return table
 
 
-def _four_in_one(grid: Grid, table: Floats32, level: int, fill: np.float32, pick: np.ufunc) -> Floats32:
-    """The best of the four cells below each cell of a level."""
+def held(grid: Grid, pieces: Pieces) -> Ints:
+    """(cells,) how many pieces there are in each cell of every level."""
+    table = np.zeros(int(grid.first[-1]), dtype=np.intp)
+    finest = pieces.row * grid.columns[0] + pieces.column
+    table[: grid.first[1]] = np.bincount(finest, minlength=int(grid.first[1]))
+    for level in range(1, grid.levels):
+        table[grid.first[level] : grid.first[level + 1]] = _four_in_one(grid, table, level, 0, np.add)
+    return table
+
+
+def _four_in_one(grid: Grid, table: NDArray[Number], level: int, fill: Number | int, pick: np.ufunc) -> NDArray[Number]:
+    """What the four cells below each cell of a level make together: the best of them, or their sum."""
     rows, columns = int(grid.rows[level - 1]), int(grid.columns[level - 1])
-    below = np.full((2 * int(grid.rows[level]), 2 * int(grid.columns[level])), fill, dtype=np.float32)
+    below = np.full((2 * int(grid.rows[level]), 2 * int(grid.columns[level])), fill, dtype=table.dtype)
     below[:rows, :columns] = table[grid.first[level - 1] : grid.first[level]].reshape(rows, columns)
     pairs = pick(below[0::2], below[1::2])
-    return np.asarray(pick(pairs[:, 0::2], pairs[:, 1::2]).ravel(), dtype=np.float32)
+    return np.asarray(pick(pairs[:, 0::2], pairs[:, 1::2]).ravel(), dtype=table.dtype)
 
 
 def reaching(grid: Grid, table: Floats32, box: Floats32, nearest: Floats32) -> Bools:

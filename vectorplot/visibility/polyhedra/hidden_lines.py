@@ -270,6 +270,10 @@ THIN = 0.8
 """A thing that touches at most so many of the finer cells in the cells it touches is entered in these."""
 
 
+MANY_PIECES = 64
+"""What is entered in a cell with more pieces is looked at in finer ones: that costs as much as to meet so many."""
+
+
 AT_ONCE = 1 << 14
 """So many pairs of cells and planes are looked at in one step, or one plane for every cell."""
 
@@ -291,9 +295,9 @@ def covered_cells(view: View, grid: Grid, occluders: Occluders) -> Floats32:
     return table[: grid.first[1]]
 
 
-def entered(view: View, grid: Grid, occluders: Occluders, which: Ints, most: int) -> Entries:
-    """Some of the occluders, entered in the cells where they could hide something, in finer ones as long as there are
-    not many more of these than most."""
+def entered(view: View, grid: Grid, occluders: Occluders, which: Ints, held: Ints) -> Entries:
+    """Some of the occluders, entered in the cells where they could hide something; large ones in finer cells as long as
+    their own hold many pieces, held (cells,) of all levels, and they touch few of the finer ones."""
     box = occluders.box.take(which, axis=1)
     level = grids.entry_level(grid, box)
     thing, column, row = grids.touched(grid, box, level)
@@ -304,9 +308,12 @@ def entered(view: View, grid: Grid, occluders: Occluders, which: Ints, most: int
     touching = _inside_outline(view, grid, occluders, tuple(cells), np.maximum, -COVERED_MARGIN)
     thing, *cells = (part.compress(touching) for part in (thing, *cells))
     while len(thing):
+        many = held[grid.numbers(*cells[1:])] > MANY_PIECES
+        kept.append(tuple(part[~many] for part in cells))
+        thing, *cells = (part[many] for part in (thing, *cells))
         owner, finer = _finer(grid, *cells)
-        if len(owner) > most:
-            break
+        filled = held[grid.numbers(*finer[1:])] > 0
+        owner, finer = owner.compress(filled), tuple(part.compress(filled) for part in finer)
         touching = _inside_outline(view, grid, occluders, finer, np.maximum, -COVERED_MARGIN)
         owner = owner.compress(touching)
         count, made = np.bincount(thing, minlength=len(which)), np.bincount(thing[owner], minlength=len(which))
@@ -317,7 +324,6 @@ def entered(view: View, grid: Grid, occluders: Occluders, which: Ints, most: int
         last = cells[-1] == 0
         kept.append(tuple(part[last] for part in cells))
         thing, *cells = (part[~last] for part in (thing, *cells))
-    kept.append(tuple(cells))
     return grids.entries(grid, *(np.concatenate(part) for part in zip(*kept, strict=True)))
 
 
@@ -395,6 +401,13 @@ def _inner_cells(grid: Grid, box: Floats32) -> tuple[Ints, Ints, Ints, Ints]:
 PAIRS_AT_ONCE = 1 << 17
 """Pairs of a piece and an occluder handled at once."""
 
+INTERVALS_AT_ONCE = 1 << 21
+"""So many hidden intervals are found before those that overlap become one: in crowds lines are hidden by many things.
+"""
+
+Marked = tuple[Ints, Floats, Floats, Ints]
+"""Hidden intervals of segments (n,), from low to high (n,), and their sides (n,), as of Hits."""
+
 MOST_SLABS, IN_SLAB, ONE_SLAB = 24, 4000, 250
 """Occluders are tried front to back in slabs of equal number: hidden lines drop out early, near lines are not tried
 against what is far. Each slab costs a little: there are at most so many, for so many occluders and pieces each; and one
@@ -403,6 +416,10 @@ for so few of either."""
 FEWEST_CELLS, SEGMENTS_IN_CELL = 16.0, 64.0
 """The finest grid has at least so many cells along the longer side of the picture, however large the things in it; or
 as many as would give each cell of a square so many segments."""
+
+THIN_FACES, SOME_FACES = 2.0, 1 << 12
+"""Cells are no larger than so many times the side of a square as large as the median of so many faces: long thin ones
+mostly pass by what is in the box of one."""
 
 SLIVER = 10.0
 """Parts shorter than so many tolerances are none."""
@@ -466,11 +483,16 @@ def visible_parts(
     alive = np.ones(len(pieces), dtype=np.bool_)
     fewer = min(len(occluders), len(pieces))
     slabs = min(max(fewer // IN_SLAB, 4), MOST_SLABS) if fewer > ONE_SLAB else 1
+    count = 0
     for piece, hits, _ in _all_hits(view, grid, segments, pieces, occluders, alive, slabs, progress):
         of = piece.take(hits.pair)
         hidden_intervals.append((pieces.segment.take(of), hits.low, hits.high, hits.side))
         whole = (hits.side == 0) & (hits.low <= pieces.low.take(of)) & (hits.high >= pieces.high.take(of))
         alive[of.compress(whole)] = False
+        count += len(of)
+        if count > INTERVALS_AT_ONCE:
+            hidden_intervals, count = [_merged(hidden_intervals, gap)], 0
+            alive &= ~_hidden_whole(pieces, hidden_intervals[0])
     segment, low, high, side = (np.concatenate(column) for column in zip(*hidden_intervals, strict=True))
     owner, low, high = _resolved(segment, low, high, side, gap)
     long = high - low > gap[owner]
@@ -520,7 +542,7 @@ def tried_pairs(view: View, faces: ProjectedFaces, solid: Bools, segments: Segme
     occluders = _occluders(view, faces, solid, grid, grids.deepest(grid, pieces))
     if not len(occluders):
         return 0
-    entries = entered(view, grid, occluders, np.arange(len(occluders)), len(pieces))
+    entries = entered(view, grid, occluders, np.arange(len(occluders)), grids.held(grid, pieces))
     count = 0
     for level in entries.levels():
         count += int(entries.of(grid.numbers(pieces.column >> level, pieces.row >> level, level))[1].sum())
@@ -547,11 +569,21 @@ def _pieces(view: View, faces: ProjectedFaces, segments: Segments) -> tuple[Grid
     sizes = np.minimum(np.maximum(faces.box[1] - faces.box[0], faces.box[3] - faces.box[2]), extent)
     fewest = max(FEWEST_CELLS, float(np.sqrt(len(segments) / SEGMENTS_IN_CELL)))
     typical = min(float(np.median(sizes)), float(extent) / fewest) if len(sizes) else float(extent)
+    typical = min(typical, THIN_FACES * _mean_side(view)) if len(sizes) else typical
     cell = grids.cell_size(start, end, typical)
     area = float(np.prod(high - low))
     cell = max(cell, np.sqrt(area / (4.0 * (len(segments) + len(sizes)) + 1024.0)))
     grid = Grid.over((low[0], high[0], low[1], high[1]), cell)
     return grid, grids.cut(grid, start, end, near, far, view.eye is not None)
+
+
+def _mean_side(view: View) -> float:
+    """The side of a square as large as the median of the images of some faces."""
+    some = np.arange(0, view.face_count, 1 + view.face_count // SOME_FACES)
+    position, offsets = ragged.take(view.offsets, some)
+    corner, after = view.corners[position], view.corners[view.after(position)]
+    (x, y), (u, v) = view.image[:, corner], view.image[:, after]
+    return float(np.sqrt(np.median(np.abs(np.add.reduceat(x * v - u * y, offsets[:-1]))) / 2.0))
 
 
 def _occluders(view: View, faces: ProjectedFaces, solid: Bools, grid: Grid, deepest: Floats32) -> Occluders:
@@ -587,6 +619,7 @@ def _all_hits(
     """
     order = np.argsort(occluders.nearest, kind="stable")
     in_image = early_rejection(view, grid, pieces, occluders)
+    held = grids.held(grid, pieces)
 
     def clipped(entries: Entries, some: tuple[Ints, Ints, Ints]) -> tuple[Ints, Hits, Ints]:
         which, begin, counts = some
@@ -604,7 +637,7 @@ def _all_hits(
         if begin == end:
             continue
         slab = order[begin:end]
-        entries = entered(view, grid, occluders, slab, len(pieces))
+        entries = entered(view, grid, occluders, slab, held)
         for level in entries.levels():
             which = np.flatnonzero(alive & (pieces.farthest > occluders.nearest[slab[0]]))
             at = grid.numbers(pieces.column.take(which) >> level, pieces.row.take(which) >> level, level)
@@ -632,6 +665,30 @@ def _resolved(segment: Ints, low: Floats, high: Floats, side: Ints, gap: Floats)
     rest = (segment[~some], low[~some], high[~some])
     owner, low, high = (np.concatenate(pair) for pair in zip(part, rest, strict=True))
     return intervals.union(owner, low, high, gap)
+
+
+def _merged(found: list[Marked], gap: Floats) -> Marked:
+    """Hidden intervals, those of both sides disjoint, before those of one."""
+    segment, low, high, side = (np.concatenate(column) for column in zip(*found, strict=True))
+    some = np.flatnonzero(side == 0)
+    parts = intervals.union(segment.take(some), low.take(some), high.take(some), gap)
+    rest = np.flatnonzero(side)
+    none = np.zeros(len(parts[0]), dtype=np.intp)
+    own = (column.take(rest) for column in (segment, low, high, side))
+    segment, low, high, side = (np.concatenate(pair) for pair in zip((*parts, none), own, strict=True))
+    return segment, low, high, side
+
+
+def _hidden_whole(pieces: Pieces, hidden: Marked) -> Bools:
+    """(p,) the pieces that one of the intervals of both sides, disjoint and in order, hides from end to end."""
+    segment, low, high, side = hidden
+    count = int(np.count_nonzero(side == 0))
+    if not count:
+        return np.zeros(len(pieces), dtype=np.bool_)
+    place = np.searchsorted(segment[:count] + low[:count], pieces.segment + pieces.low, side="right") - 1
+    at = np.maximum(place, 0)
+    within = (low[at] <= pieces.low) & (high[at] >= pieces.high)
+    return np.asarray((segment[at] == pieces.segment) & within, dtype=np.bool_)
 
 
 def _by_item(

@@ -141,7 +141,7 @@ def edge_lines(
 ) -> Lines:
     """Contours, boundaries, creases and other edges of all items; kinds: unless an item has its own; backs (i,): items
     whose edges between faces turned away are wanted too (of closed solids they are hidden). Items with drawn_edges
-    have these only, flat ones as creases; added_edges are creases too, less what is cut away.
+    have these only, flat ones as creases, and tangent_edges; added_edges are creases too, less what is cut away.
     Source: Glaeser, sections 3.3, 4.4 and 7.2.
     """
     parts = []
@@ -161,10 +161,21 @@ def edge_lines(
         if find is _all_edges:
             edges, among = _listed_edges(scene, view, edges, item, wanted)
             kept &= among
-        start, end = edges.start[kept], edges.end[kept]
-        ends = view.points.take(start, axis=1), view.points.take(end, axis=1)
-        parts.append(straight_lines(*ends, edges.kind[kept], item[kept], edges.side[kept]))
+        edges = records.take(edges, kept)
+        ends = view.points.take(edges.start, axis=1), view.points.take(edges.end, axis=1)
+        lines = straight_lines(*ends, edges.kind, item[kept], edges.side)
+        if find is _all_edges and touching_parts(scene):
+            from vectorplot.visibility.polyhedra.smooth_lines import beside_flat_faces
+
+            lines = replace(lines, aside=beside_flat_faces(scene, view, asked, view.face_item[which], edges))
+        parts.append(lines)
     return joined_lines([*parts, *_added_edges(scene, view, kinds)])
+
+
+def touching_parts(scene: Scene) -> bool:
+    """Whether there are several items, and triangles stand for the smooth faces of some: where these touch others, as a
+    pin its bore, the triangles of both pierce."""
+    return len(scene.items) > 1 and any(item.normals is not None for item in scene.items)
 
 
 def _all_edges(faces: Faces, kinds: Collection[LineKind], crease_angle_deg: float) -> Edges:
@@ -177,7 +188,7 @@ def _added_edges(scene: Scene, view: View, kinds: frozenset[LineKind]) -> list[L
     for number, item in enumerate(scene.items):
         if item.added_edges is None or not {LineKind.CREASE, LineKind.EDGES} & kinds_of(item, kinds):
             continue
-        start, end = segments_outside(item.added_edges[:, 0], item.added_edges[:, 1], item.cut_by)
+        start, end, _ = segments_outside(item.added_edges[:, 0], item.added_edges[:, 1], item.cut_by)
         none = np.zeros(len(start), dtype=np.intp)
         ends = view.points_of(start), view.points_of(end)
         parts.append(straight_lines(*ends, np.full(len(start), int(LineKind.CREASE)), none + number, none))
@@ -192,19 +203,27 @@ def _listed_edges(
     item (e,): of which they are. A part of a listed edge that a cut leaves counts as listed, and so do edges of cuts.
     """
     flat = (edges.kind == LineKind.EDGES) & (LineKind.EDGES not in kinds)
+    kind = np.where(flat, int(LineKind.CREASE), edges.kind)
     among = np.zeros(len(item), dtype=np.bool_)
     start, end = view.points[:, edges.start], view.points[:, edges.end]
-    for number in np.unique(item).tolist():
-        ends = scene.items[number].drawn_edges
-        assert ends is not None
+
+    def listed(own: Ints, ends: Floats) -> Ints:
         one, two = (view.points_of(side) for side in (ends[:, 0], ends[:, 1]))
-        own = np.flatnonzero((item == number) & (~flat | (LineKind.CREASE in kinds)))
-        among[own] = _lie_along(start[:, own], end[:, own], one, two, view.tolerance)
+        return own[_lie_along(start[:, own], end[:, own], one, two, view.tolerance)]
+
+    for number in np.unique(item).tolist():
+        asked = scene.items[number]
+        if asked.tangent_edges is not None and LineKind.TANGENT in kinds:
+            tangent = listed(np.flatnonzero(item == number), asked.tangent_edges)
+            kind[tangent], among[tangent] = LineKind.TANGENT, True
+        if asked.drawn_edges is not None:
+            own = np.flatnonzero((item == number) & (~flat | (LineKind.CREASE in kinds)))
+            among[listed(own, asked.drawn_edges)] = True
         borders = np.flatnonzero((item == number) & (edges.kind == LineKind.BOUNDARY))
         middle = matmul(0.5 * (start + end)[:, borders].T, view.axes) * view.scale + view.centre
         for region in scene.items[number].cut_by:
             among[borders] |= region.is_border(middle, CUT_EDGE_OF_EXTENT * view.scale)
-    return replace(edges, kind=np.where(flat, int(LineKind.CREASE), edges.kind)), among
+    return replace(edges, kind=kind), among
 
 
 def _lie_along(start: Floats, end: Floats, one: Floats, two: Floats, tolerance: float) -> Bools:
@@ -237,7 +256,8 @@ def _from_segments(points: Floats, one: Floats, two: Floats) -> Floats:
 
 def _listing_edges(scene: Scene) -> Bools:
     """(i,) the items that list the edges to be drawn."""
-    return np.array([item.drawn_edges is not None for item in scene.items], dtype=np.bool_)
+    listed = (item.drawn_edges is not None or item.tangent_edges is not None for item in scene.items)
+    return np.fromiter(listed, dtype=np.bool_, count=len(scene.items))
 
 
 def _faces(view: View, faces: ProjectedFaces) -> Faces:
@@ -386,7 +406,7 @@ def mesh_curve_lines(
         wanted = kinds_of(item, kinds)
         if isinstance(item.shape, Mesh) and item.shape.face_count:
             if LineKind.CONTOUR in wanted and item.curves.smooth_contours:
-                parts.append(_contours_across_faces(view, item.shape, number, crease_angle_deg))
+                parts.append(_contours_across_faces(view, item, number, crease_angle_deg))
             if LineKind.ISOPHOTE in wanted and item.curves.isophotes:
                 found = _mesh_isophotes(scene, view, item, crease_angle_deg)
                 parts.append(_lines_of_curves(view, found, LineKind.ISOPHOTE, number, item.curves.smooth))
@@ -450,11 +470,11 @@ def _terrain_lines(item: Item, mesh: Mesh, asked: TerrainLines) -> MeshCurves:
         raise InputError(f"{item.name}: {error.cause}") from None
 
 
-def _contours_across_faces(view: View, mesh: Mesh, number: int, crease_angle_deg: float) -> Lines:
+def _contours_across_faces(view: View, item: Item, number: int, crease_angle_deg: float) -> Lines:
     # Few meshes are taken for smooth shapes: what finds their contours is loaded for them.
     from vectorplot.visibility.polyhedra.smooth_lines import smooth_contour_lines
 
-    found = smooth_contour_lines(mesh, view, crease_angle_deg)
+    found = smooth_contour_lines(item, view, crease_angle_deg)
     numbers = np.full(len(found.side), number)
     lines = straight_lines(found.start, found.end, np.full_like(numbers, int(LineKind.CONTOUR)), numbers, found.side)
     return replace(lines, smooth=np.ones(len(numbers), dtype=np.bool_), aside=found.aside)

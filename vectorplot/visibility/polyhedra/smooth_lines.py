@@ -8,10 +8,18 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from vectorplot.arrays import Floats, Ints
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.features.feature_lines import Detail, Sight
-from vectorplot.features.mesh_feature_lines import mesh_feature_lines, smooth_contours
+from vectorplot.features.mesh_edge_lines import Edges, Faces, unit_normals
+from vectorplot.features.mesh_feature_lines import (
+    SmoothContours,
+    enclosed,
+    mesh_feature_lines,
+    reaches,
+    smooth_contours,
+    true_contours,
+)
 from vectorplot.features.mesh_integration import mesh_geodesics, mesh_integral_curves
 from vectorplot.features.mesh_lines import MeshCurves
 from vectorplot.features.mesh_streamlines import evenly_spaced_mesh_curves
@@ -20,8 +28,12 @@ from vectorplot.features.shortest_paths import mesh_shortest_paths
 from vectorplot.features.surface_points import USUAL_CREASE_DEG
 from vectorplot.features.tangent_fields import AsymptoticDirections, PrincipalDirections, TangentField, VectorField
 from vectorplot.geometry.budget import USUAL, Budget, unheard
+from vectorplot.geometry.component_arrays import cross as component_cross
 from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.mesh_cuts import segments_outside
+from vectorplot.geometry.vectors import dot
 from vectorplot.scene.item import Item
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.surface_lines import (
     ON_MESHES,
     USUAL_APART,
@@ -35,6 +47,7 @@ from vectorplot.scene.surface_lines import (
     check_points,
 )
 from vectorplot.scene.view import View
+from vectorplot.tolerances import FLAT_COSINE
 from vectorplot.words import LineKind
 
 
@@ -154,9 +167,16 @@ class SmoothContourLines:
     side: Ints
 
 
-def smooth_contour_lines(mesh: Mesh, view: View, crease_angle_deg: float) -> SmoothContourLines:
-    """The contours across the faces of a mesh; they end at its creases."""
-    found = smooth_contours(mesh, sight_in_world(view), crease_angle_deg)
+def smooth_contour_lines(item: Item, view: View, crease_angle_deg: float) -> SmoothContourLines:
+    """The contours across the faces of a polyhedron: where its true normals say, if it has any, less what is cut away;
+    else by average ones, up to its creases."""
+    sight, true = sight_in_world(view), item.normals
+    if true is None:
+        found = smooth_contours(item.mesh, sight, crease_angle_deg)
+    else:
+        found = true_contours(true.mesh, true.at_vertices, sight, enclosed(item.mesh))
+        parts = segments_outside(found.start, found.end, item.cut_by)
+        found = SmoothContours(parts[0], parts[1], found.aside[parts[2]])
     start, end = view.points_of(found.start), view.points_of(found.end)
     aside = view.points_of(found.start + found.aside) - start
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -164,3 +184,56 @@ def smooth_contour_lines(mesh: Mesh, view: View, crease_angle_deg: float) -> Smo
         out = view.image_of(start + aside) - view.image_of(start)
         left = along[0] * out[1] - along[1] * out[0] > 0.0
     return SmoothContourLines(start, end, aside, np.where(left, -1, 1))
+
+
+# Edges of parts that touch other parts along smooth faces.
+#
+# The triangles of a pin and those of its bore stand for one cylinder, and pierce each other along the rim of the bore.
+# What is seen of the rim is what is seen of the flat face around it, a little aside.
+
+
+def beside_flat_faces(scene: Scene, view: View, faces: Faces, face_item: Ints, edges: Edges) -> Floats:
+    """(3,e) what leads from edges between a flat face that shows its outside and a smooth one into the flat face, as
+    far as triangles of smooth shapes rise above these; zero for other edges. face_item (f,): the items of faces."""
+    aside, count = np.zeros((3, len(edges.start))), view.points.shape[1]
+    flat = _flat_faces(scene, face_item)
+    true = [item.normals for item in scene.items if item.normals is not None]
+    far = max(float(reaches(own.mesh.vertices, own.mesh.corners.reshape(-1, 3), own.at_vertices).max()) for own in true)
+    place = np.flatnonzero(np.repeat(flat, np.diff(faces.offsets)))
+    a, b = faces.corners[place], faces.corners[faces.after(place)]
+    key, wanted = np.minimum(a, b) * count + np.maximum(a, b), edges.start * count + edges.end
+    order = np.argsort(key, kind="stable")
+    low, high = (np.searchsorted(key[order], wanted, side=side) for side in ("left", "right"))
+    which = np.flatnonzero(high - low == 1)
+    corner = place[order[low[which]]]
+    face = np.searchsorted(faces.offsets, corner, side="right") - 1
+    front = faces.facing[face] > 0
+    which, corner, face = which[front], corner[front], face[front]
+    along = view.points[:, faces.corners[faces.after(corner)]] - view.points[:, faces.corners[corner]]
+    inwards = component_cross(unit_normals(faces, face), along)
+    length = np.sqrt((inwards * inwards).sum(axis=0))
+    aside[:, which] = inwards * (far / view.scale / np.where(length > 0.0, length, np.inf))
+    return aside
+
+
+def _flat_faces(scene: Scene, face_item: Ints) -> Bools:
+    """(f,) the faces that are flat in the shape that they stand for; none of an item whose faces are not those of its
+    mesh."""
+    flat = np.zeros(len(face_item), dtype=np.bool_)
+    for number in np.unique(face_item).tolist():
+        item, own = scene.items[number], np.flatnonzero(face_item == number)
+        if item.normals is None or len(own) != item.mesh.face_count:
+            continue
+        mesh, known = item.mesh, item.normals
+        if known.has_faces_of(mesh):
+            normals = known.at_vertices[known.mesh.corners]
+        else:
+            # Inside of what a cut left of them faces have the normals of one side.
+            middle = np.add.reduceat(mesh.vertices[mesh.corners], mesh.offsets[:-1], axis=0) / mesh.face_sizes[:, None]
+            inside = 0.5 * (mesh.vertices[mesh.corners] + middle[mesh.corner_face])
+            place, corners, weights, _ = known.triangles.places(inside)
+            normals = np.zeros(inside.shape)
+            normals[place] = np.einsum("kc,kcx->kx", weights, known.at_vertices[corners])
+        alike = dot(normals, normals[mesh.offsets[:-1]][mesh.corner_face])
+        flat[own] = np.minimum.reduceat(alike, mesh.offsets[:-1]) >= FLAT_COSINE
+    return flat

@@ -161,18 +161,19 @@ class Charts(Elements):
     def __len__(self) -> int:
         return len(self.kind)
 
-    def at(self, chart: Ints, x: Floats, y: Floats) -> tuple[Floats, Floats]:
-        """Points and unit normals (3,m) of charts (m,) at places of their squares."""
+    def at(self, chart: Ints, *place: Floats) -> tuple[Floats, Floats]:
+        """Points and unit normals (3,m) of charts (m,) at places x and y (m,) of their squares."""
+        x, y = place
         kind = self.kind.take(chart)
-        place, normal = np.zeros((2, 3, len(x)))
+        points, normals = np.zeros((2, 3, len(x)))
         for number, coordinates in ((CAP, _on_cap), (MANTLE, _on_mantle), (DISC, _on_disc)):
             own = np.flatnonzero(kind == number)
             if len(own) == len(x):
-                place, normal = coordinates(self.numbers.take(chart, axis=1), x, y)
+                points, normals = coordinates(self.numbers.take(chart, axis=1), x, y)
             elif len(own):
                 numbers = self.numbers.take(chart[own], axis=1)
-                place[:, own], normal[:, own] = coordinates(numbers, x[own], y[own])
-        points, normals = _combined(place, self.axes, chart), _combined(normal, self.normals, chart)
+                points[:, own], normals[:, own] = coordinates(numbers, x[own], y[own])
+        points, normals = _combined(points, self.axes, chart), _combined(normals, self.normals, chart)
         for row, origin in zip(points, self.origin, strict=True):
             row += origin.take(chart)
         return points, normals / np.sqrt(dot(normals, normals))

@@ -32,5 +32,6 @@ def test_what_touches_from_inside_is_not_seen(name):
     top = top_at(fills, places)
     seen = places[(top >= 0) & (fills.item[top] > 0)]
     # Outlines of both may be off by the tolerance.
-    outline = shapely.union_all([shapely.Polygon(part) for part in np.split(fills.points, fills.offsets[1:-1])])
+    parts = [shapely.Polygon(part) for part in np.split(fills.points, fills.offsets[1:-1])]
+    outline = shapely.union_all(shapely.make_valid(parts))
     assert shapely.contains_xy(outline.buffer(-0.1), seen).sum() <= 1

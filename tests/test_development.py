@@ -1,0 +1,137 @@
+"""The verb develop: what is cut, folded and carried along, on paper in true size."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import shapely
+from click.testing import CliRunner
+
+import vectorplot as vp
+from vectorplot.cli.commands.develop import develop
+from vectorplot.geometry import box, revolution
+from vectorplot.io import parse_scene
+
+PIPES = """A gray surface cylinder 20 -50 50 rotation z 90
+           B gray surface cylinder 14 0 60 rotation y 90"""
+
+
+def strokes(drawing, name):
+    """The strokes of a layer, as shapely's lines."""
+    (layer,) = (layer for layer in drawing.layers if layer.name == name)
+    lines = []
+    for paths in layer.strokes:
+        for part, closed in zip(np.split(paths.points, paths.offsets[1:-1]), paths.closed, strict=True):
+            lines.append(shapely.LineString(np.vstack([part, part[:1]]) if closed else part))
+    return lines
+
+
+def length(drawing, name):
+    return sum(line.length for line in strokes(drawing, name))
+
+
+@pytest.mark.slow
+def test_a_cube_is_cut_around_and_folded_in_true_size():
+    drawing = vp.development(box((20, 20, 20)))
+    assert (round(drawing.width_mm), round(drawing.height_mm)) == (100, 80)
+    (outline,) = strokes(drawing, "cut")
+    assert outline.length == pytest.approx(14 * 20) and shapely.Polygon(outline.coords).area == pytest.approx(6 * 400)
+    folds = [line for line in strokes(drawing, "mountain fold")]
+    assert all(line.length <= 3.0 + 1e-9 for line in folds)
+
+
+@pytest.mark.parametrize(
+    ("how", "factor"), [({"unit": "cm"}, 10.0), ({"scale": "1:2"}, 0.5), ({"unit": "in", "scale": "2:1"}, 50.8)]
+)
+def test_scale_and_unit(how, factor):
+    assert length(vp.development(box((2, 2, 2)), **how), "cut") == pytest.approx(28 * factor)
+
+
+@pytest.mark.slow
+def test_valley_folds_are_told_from_mountain_folds():
+    spool = revolution([(20, 0, 0), (10, 0, 10), (20, 0, 20)], order=6)
+    names = [layer.name for layer in vp.development(spool).layers]
+    assert names == ["cut", "mountain fold", "valley fold"]
+    assert "valley fold" not in [layer.name for layer in vp.development(spool, crease_angle_deg=150).layers]
+
+
+@pytest.mark.slow
+def test_each_pair_of_sides_has_a_tab_and_two_equal_numbers():
+    plain, drawing = (vp.development(box((20, 20, 20)), tabs_mm=tabs, numbers=True) for tabs in (0.0, 5.0))
+    (outline,) = strokes(drawing, "cut")
+    foot = 5.0 / np.tan(np.pi / 3)
+    assert shapely.Polygon(outline.coords).area == pytest.approx(2400 + 7 * 5.0 * (20 - foot))
+    assert shapely.Polygon(outline.coords).is_valid
+    # 1 has a stroke, and so have 2, 3, 5, 6 and 7; 4 has two.
+    assert len(strokes(plain, "label")) == len(strokes(drawing, "label")) >= 14
+
+
+@pytest.mark.slow
+def test_two_pipes_have_their_curve_on_both():
+    drawing = vp.development(parse_scene(PIPES))
+    assert length(drawing, "cut") == pytest.approx(2 * (2 * np.pi * 20 + 100) + 2 * (2 * np.pi * 14 + 60), abs=1e-3)
+    curve = vp.draw(parse_scene(PIPES), lines="intersection", hidden="solid").layers
+    assert curve
+    angle = np.linspace(0, 2 * np.pi, 20001)
+    y, z = 14 * np.cos(angle), 14 * np.sin(angle)
+    rim = np.stack([np.sqrt(400 - y**2), y, z], axis=1)
+    once = np.linalg.norm(np.diff(rim, axis=0), axis=1).sum()
+    assert length(drawing, "intersection") == pytest.approx(2 * once, rel=1e-3)
+
+
+@pytest.mark.slow
+def test_bodies_with_caps_are_mantle_and_caps():
+    drawing = vp.development(parse_scene("C gray surface cone 15 40 capped"))
+    side = np.hypot(15, 40)
+    assert length(drawing, "cut") == pytest.approx(2 * side + 2 * 2 * np.pi * 15, abs=0.05)
+
+
+@pytest.mark.slow
+def test_sections_patterns_and_parameter_lines_are_carried_along():
+    text = """DIE gray box 20 20 20 sections z 1 patterns face 1 polygon P red -3 -3, 3 -3, 3 3, -3 3
+              CAN gray surface cylinder 10 0 30 sections z at 15 parameter_lines 4 0 translation 100 0 0"""
+    drawing = vp.development(parse_scene(text))
+    assert length(drawing, "section") == pytest.approx(4 * 20 + 2 * np.pi * 10, abs=0.01)
+    assert length(drawing, "pattern") == pytest.approx(24)
+    assert length(drawing, "visible") == pytest.approx(3 * 30)
+
+
+def test_meshes_that_meet_have_the_line_too():
+    drawing = vp.development((vp.Item("a", box((20, 20, 20))), vp.Item("b", box((10, 10, 40)).moved(5, 5, 10))))
+    assert length(drawing, "intersection") == pytest.approx(2 * 40)
+
+
+@pytest.mark.slow
+def test_what_is_nearly_developable_is_told():
+    u, v = np.meshgrid(np.linspace(0, 2, 9), np.linspace(0, 1, 5), indexing="ij")
+    points = 50 * np.stack([u, v, 0.2 * u**2 + 1e-5 * v**2 * u], axis=-1).reshape(-1, 3)
+    cells = [(i * 5 + j, (i + 1) * 5 + j, (i + 1) * 5 + j + 1, i * 5 + j + 1) for i in range(8) for j in range(4)]
+    mesh = vp.Mesh.from_triangles(points, [t for a, b, c, d in cells for t in ((a, b, c), (a, c, d))])
+    with pytest.warns(vp.InputWarning, match=r"sheet: developed as if corners up to 0\.\d+ mm apart were one"):
+        drawing = vp.development(vp.Item("sheet", mesh))
+    assert length(drawing, "cut") == pytest.approx(
+        shapely.union_all(strokes(drawing, "cut")).convex_hull.length, rel=1e-3
+    )
+
+
+def test_what_cannot_be_developed_is_told():
+    with pytest.raises(vp.InputError, match="BALL: is not developable"):
+        vp.development(parse_scene("BALL gray surface sphere 1"))
+    with pytest.warns(vp.InputWarning, match=r"BALL: is not developable: .*; it is left out"):
+        vp.development(parse_scene("BALL gray surface sphere 1 DIE gray box 1 1 1"))
+    with pytest.raises(vp.InputError, match="nothing to develop"):
+        vp.development(parse_scene("LOOP gray curve circle 1"))
+    with pytest.raises(vp.InputError, match=r"the pieces take 400 x 300 mm, the page has 277 x 190 mm for them"):
+        vp.development(box((100, 100, 100)), page="A4 landscape")
+    with pytest.raises(vp.InputError, match="tabs of -1 mm"):
+        vp.development(box((1, 1, 1)), tabs_mm=-1)
+    with pytest.raises(vp.InputError, match="unit"):
+        vp.development(box((1, 1, 1)), unit="mile")
+
+
+def test_the_command_writes_a_page_and_its_parts(tmp_path):
+    words = ["data/box.scene", "--unit", "cm", "--tabs", "5", "--tiles", "2x1", "-q", "-o", str(tmp_path / "net.svg")]
+    result = CliRunner().invoke(develop, words)
+    assert result.exit_code == 0, result.output
+    assert sorted(file.name for file in tmp_path.iterdir()) == ["net-1-1.svg", "net-1-2.svg", "net.svg"]
+    assert 'inkscape:label="1 cut"' in (tmp_path / "net.svg").read_text()

@@ -1,0 +1,722 @@
+"""Files and objects of CAD systems (STEP, IGES, BREP; build123d, CadQuery) -> scenes: OpenCASCADE reads them and makes
+fine triangles of their faces; which edges are sharp, tangent or seams, the normals on both sides tell."""
+
+from __future__ import annotations
+
+import warnings
+from collections import Counter, defaultdict
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
+from enum import IntEnum
+from functools import partial
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.errors import InputError, InputWarning, not_installed
+from vectorplot.geometry import ragged
+from vectorplot.geometry.algebra import matmul
+from vectorplot.geometry.budget import may_stop
+from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.vectors import cross, dot, norm
+from vectorplot.geometry.weld import distinct_points
+from vectorplot.io.material_library import looks_of_colours
+from vectorplot.io.mesh_file import shown
+from vectorplot.io.read_mesh import with_looks
+from vectorplot.scene.extent import check_range
+from vectorplot.scene.face_looks import FaceLooks
+from vectorplot.scene.item import Item, SurfaceNormals
+from vectorplot.scene.material import Material
+from vectorplot.scene.scene import Scene, together
+from vectorplot.scene.surface_lines import SurfaceLines
+from vectorplot.tolerances import LEAST_DIVISOR, NO_CAD_NORMAL, SEWN_OF_EXTENT
+from vectorplot.words import DRAWN, LineKind
+
+USUAL_TOLERANCE = 5e-5
+"""Chords of edges are no farther off than this part of the diagonal of all that is read: 0.02 mm on a page A4."""
+
+LEAST_TOLERANCE = 2e-6
+"""Finer ones take minutes to read."""
+
+INSIDE_FACES = 4.0
+"""Triangles may be so many times as far off their faces: contours lie on cubics, not on these."""
+
+WIDEST_TURN = 0.2
+"""Neighbouring triangles of one face turn by no more than about this angle, in radians: 32 sides make a circle."""
+
+TANGENT_COSINE = float(np.cos(np.radians(1.0)))
+"""Faces that meet at a smaller angle everywhere along an edge are tangent to each other there."""
+
+BENT_ALIKE = 0.01
+"""Mean curvatures that differ by no more than this part of the larger one, or of that of a ball as large as the body,
+are those of one shape: nobody sees a line there."""
+
+MOST_TRIANGLES = 10_000_000
+"""A scene with more triangles is refused."""
+
+MOST_DEPTH = 100
+"""Assemblies in assemblies are followed so deep."""
+
+CAD_LINES = tuple(word for word in DRAWN if word != LineKind.INTERSECTION.word)
+"""What is drawn of parts where nothing is said: where parts touch, as a pin in its bore, their triangles pierce."""
+
+
+# Bodies, and what is drawn of them.
+
+
+class EdgeKind(IntEnum):
+    """What an edge of a part is."""
+
+    SHARP = 0
+    """Its faces meet at an angle; or it has one face only, or more than two."""
+    TANGENT = 1
+    """Two faces meet without a crease, but bend otherwise on both sides."""
+    SEAM = 2
+    """A face goes on in itself or in another one, as halves of a cylinder do: nothing shows there."""
+
+
+@dataclass(frozen=True, eq=False)
+class CadBody:
+    """A body as a CAD system tells it, each face with points of its own.
+
+    points (n,3); normals (n,3): of the surfaces there, outwards, zero where there is none; bending (n,): their mean
+    curvatures, positive where they bend towards the normal, NaN where there is none; triangles (t,3): of points,
+    counter-clockwise from outside; face (t,): of which face each is a part; flat (f,): the faces in planes; shares
+    (f,4): red, green, blue and opacity of each face, NaN where it has none of its own. Uses of edges by faces: nodes
+    (k,): the points along each, offsets (u+1,), edge (u,): the number of the edge, and user (u,): the face; two uses of
+    an edge list their points in the same direction.
+    """
+
+    points: Floats
+    normals: Floats
+    bending: Floats
+    triangles: Ints
+    face: Ints
+    flat: Bools
+    shares: Floats
+    nodes: Ints
+    offsets: Ints
+    edge: Ints
+    user: Ints
+
+
+def edge_kinds(body: CadBody) -> Ints:
+    """(e,) the kind of each edge, see EdgeKind."""
+    count = int(body.edge.max(initial=-1)) + 1
+    kinds = np.full(count, int(EdgeKind.SHARP))
+    edge, one, two = _pairs_of_uses(body, np.bincount(body.edge, minlength=count) == 2)
+    if not len(edge):
+        return kinds
+    size = np.diff(body.offsets)[one]
+    along = [body.nodes[ragged.ranges(body.offsets[use], size)] for use in (one, two)]
+    first, second = (body.normals[points] for points in along)
+    place, owner = ragged.place(size), ragged.owner(size)
+    # At the ends of an edge other faces may make corners.
+    known = first.any(axis=1) & second.any(axis=1)
+    inner = (place > 0) & (place < size[owner] - 1) | (size[owner] == 2)
+    cosine = np.where(known & inner, dot(first, second), 1.0)
+    smooth = np.minimum.reduceat(cosine, ragged.starts(size)) >= TANGENT_COSINE
+    smooth &= np.logical_or.reduceat(known & inner, ragged.starts(size))
+    bent, bent_too = (body.bending[points] for points in along)
+    # With one tangent plane along all of an edge, surfaces bend alike there where their mean curvatures are alike.
+    straight = 1.0 / max(float(norm(np.ptp(body.points, axis=0))), LEAST_DIVISOR)
+    most = np.maximum(np.maximum(np.abs(bent), np.abs(bent_too)), straight)
+    off = known & inner & (np.abs(bent - bent_too) > BENT_ALIKE * most)
+    alike = (body.user[one] == body.user[two]) | ~np.logical_or.reduceat(off, ragged.starts(size))
+    kinds[edge] = np.where(smooth, np.where(alike, int(EdgeKind.SEAM), int(EdgeKind.TANGENT)), int(EdgeKind.SHARP))
+    return kinds
+
+
+def _pairs_of_uses(body: CadBody, among: Bools) -> tuple[Ints, Ints, Ints]:
+    """The edges (p,) among some (e,) with the first use and another use of each, of as many points; an edge with more
+    uses comes with every other one."""
+    order = np.argsort(body.edge, kind="stable")
+    order = order[among[body.edge[order]]]
+    edge = body.edge[order]
+    begin = np.searchsorted(edge, edge)
+    first, later = order[begin], np.flatnonzero(np.arange(len(edge)) > begin)
+    one, two = first[later], order[later]
+    size = np.diff(body.offsets)
+    alike = size[one] == size[two]
+    return edge[later][alike], one[alike], two[alike]
+
+
+def body_item(name: str, body: CadBody) -> Item:
+    """The item of a body: a mesh without gaps along its edges, of which the sharp and the tangent edges are drawn, and
+    contours where the normals of its surfaces say.
+
+    Errors: InputError for a body without a face that has an area.
+    """
+    kinds = edge_kinds(body)
+    vertex = _united(body, np.ones(len(kinds), dtype=np.bool_), distinct_points(body.points)[1])
+    place = np.unique(vertex, return_index=True)[1]
+    corners = vertex[body.triangles]
+    kept = np.flatnonzero(_all_differ(corners))
+    if not len(kept):
+        raise InputError(f"{name}: no face with an area")
+    positions = body.points[place]
+    mesh = Mesh.from_triangles(positions, corners[kept])
+    ends = [positions[vertex[own]] for own in (_segments(body, kinds == kind) for kind in EdgeKind)]
+    item = Item(name, mesh, default_lines=CAD_LINES, drawn_edges=ends[EdgeKind.SHARP])
+    item = _with_one_colour(with_looks(item, looks_of_colours(mesh, body.shares[body.face[kept]])))
+    if body.flat.all():
+        return item
+    normals = _true_normals(body, kinds, vertex, positions, kept)
+    return replace(
+        item, tangent_edges=ends[EdgeKind.TANGENT], normals=normals, curves=SurfaceLines(smooth_contours=True)
+    )
+
+
+def _with_one_colour(item: Item) -> Item:
+    """An item all of whose faces have looks of their own in the look of most of them, which the others have not."""
+    looks = item.face_looks
+    if looks is None or (looks.of_face < 0).any():
+        return item
+    most = int(np.bincount(looks.of_face).argmax())
+    rest, own = np.where(looks.of_face == most, -1, looks.of_face), looks.looks[most]
+    material = item.material if own.material is None else own.material
+    # Opaque faces of a clear body say so.
+    kept = tuple(replace(one, material=one.material or Material()) for one in looks.looks)
+    return replace(
+        item, colour=own.colour or item.colour, material=material, face_looks=FaceLooks(looks.mesh, kept, rest)
+    )
+
+
+def _united(body: CadBody, edges: Bools, same: Ints) -> Ints:
+    """(n,) numbers of points that all points have in common which lie on each other along some edges (e,), or have a
+    number (n,) in common."""
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+
+    _, one, two = _pairs_of_uses(body, edges)
+    size = np.diff(body.offsets)[one]
+    a, b = (body.nodes[ragged.ranges(body.offsets[use], size)] for use in (one, two))
+    count, numbers = len(body.points), np.arange(len(body.points))
+    a, b = np.concatenate([a, numbers]), np.concatenate([b, count + same])
+    whole = count + int(same.max(initial=-1)) + 1
+    links = coo_array((np.ones(len(a), dtype=np.bool_), (a, b)), shape=(whole, whole))
+    number = connected_components(links, directed=False)[1][:count]
+    return np.asarray(np.unique(number, return_inverse=True)[1].ravel(), dtype=np.intp)
+
+
+def _all_differ(corners: Ints) -> Bools:
+    a, b, c = corners.T
+    return np.asarray((a != b) & (b != c) & (c != a))
+
+
+def _segments(body: CadBody, edges: Bools) -> Ints:
+    """(s,2) the points at both ends of each segment of some edges (e,), by the first use of each."""
+    used, first = np.unique(body.edge, return_index=True)
+    use = first[edges[used]]
+    size = np.diff(body.offsets)[use]
+    along, begin = ragged.ranges(body.offsets[use], size), ragged.place(size)
+    start = np.flatnonzero(begin < np.repeat(size, size) - 1)
+    return np.stack([body.nodes[along[start]], body.nodes[along[start + 1]]], axis=1)
+
+
+def _true_normals(body: CadBody, kinds: Ints, vertex: Ints, positions: Floats, kept: Ints) -> SurfaceNormals:
+    """The normals at the vertices of the mesh of triangles kept (t,), taken apart along sharp edges."""
+    number = _united(body, kinds != EdgeKind.SHARP, np.arange(len(body.points)))
+    first = np.unique(number, return_index=True)[1]
+    corners, whole = number[body.triangles[kept]], vertex[first]
+    normals = _sums(number, body.normals, len(first))
+    none = ~normals.any(axis=1)
+    if none.any():
+        # At the pole of a ball the triangles around it tell; at the tip of a cone there is none.
+        areas = Mesh.from_triangles(positions[whole], corners).area_vectors
+        around, size = _sums(corners.ravel(), np.repeat(areas, 3, axis=0), len(first)), norm(areas)
+        evenly = norm(around) >= np.cos(WIDEST_TURN) * np.bincount(corners.ravel(), np.repeat(size, 3), len(first))
+        normals[none & evenly] = around[none & evenly]
+    normals /= np.maximum(norm(normals), LEAST_DIVISOR)[:, None]
+    several = np.bincount(whole, minlength=len(positions)) > 1
+    return SurfaceNormals(Mesh.from_triangles(positions[whole], corners), normals, several[whole])
+
+
+def _sums(number: Ints, vectors: Floats, count: int) -> Floats:
+    """(count,3) the sum of the vectors (n,3) that have each number (n,)."""
+    return np.stack([np.bincount(number, part, count) for part in vectors.T], axis=1)
+
+
+# What OpenCASCADE reads. Its binding differs from version to version: 7.9 and 8.0 are known.
+
+BINDING = "OpenCASCADE (cadquery-ocp-novtk)"
+"""What files of CAD systems are read by."""
+
+_SHAPE_SUFFIXES = (".brep",)
+_IGES_SUFFIXES = (".iges", ".igs")
+_BREP_BEGINS, _BEGINNING = (b"DBRep_DrawableShape", b"CASCADE Topology"), 256
+_NO_NAMES = ("=>[", "Open CASCADE STEP translator")
+_KINDS_ALONE = ("COMPOUND", "COMPSOLID", "SOLID", "SHELL", "FACE", "ASSEMBLY")
+
+
+def _occ(module: str) -> Any:
+    return import_module(f"OCP.{module}")
+
+
+def cad_scene(path: Path, tolerance: float = USUAL_TOLERANCE) -> Scene:
+    """The bodies in a STEP, IGES or BREP file, in millimetres, each an item with the names and colours of the file;
+    those of one part, or of one assembly in the whole, are a group. tolerance: how far chords of edges may be off, as
+    part of the diagonal of all that is read; no less than LEAST_TOLERANCE counts.
+
+    Errors: InputError where OpenCASCADE is not installed, for a file that it cannot read or that holds no faces, and
+    for a tolerance that is not positive.
+    """
+    if not 0.0 < tolerance < np.inf:
+        raise InputError(f"a tolerance of {tolerance:g}: expected a positive part of the extent")
+    name = shown(path)
+    try:
+        _occ("TopoDS")
+    except ImportError:
+        raise not_installed(f"{name}: a file of a CAD system", BINDING, "step") from None
+    suffix = path.suffix.lower()
+    try:
+        with _quietly():
+            if suffix in _SHAPE_SUFFIXES:
+                parts = [_Part(_read_shape(path), _nowhere(), path.stem)]
+            else:
+                parts = _read_document(path, suffix in _IGES_SUFFIXES)
+            return _scene(parts, max(tolerance, LEAST_TOLERANCE))
+    except InputError as error:
+        raise (error if error.file else InputError(error.cause, file=name)) from None
+    except MemoryError:
+        raise InputError("too large for the memory", file=name) from None
+    except Exception as error:
+        # Of OpenCASCADE, all of whose errors are of a class of its own.
+        if not type(error).__module__.startswith("OCP"):
+            raise
+        raise InputError(f"OpenCASCADE cannot read it: {type(error).__name__} {error}", file=name) from None
+
+
+class _Numbers:
+    """Numbers of shapes of OpenCASCADE, from 0 as they come: the same for what is the same shape in the same place,
+    whichever way round it is."""
+
+    def __init__(self) -> None:
+        self._known = defaultdict[int, list[tuple[Any, int]]](list)
+        self._count = 0
+
+    def of(self, shape: Any) -> int:
+        """The number of a shape, a new one for a new shape."""
+        alike = self._known[hash(shape)]
+        found = next((number for one, number in alike if one.IsSame(shape)), None)
+        if found is None:
+            found, self._count = self._count, self._count + 1
+            alike.append((shape, found))
+        return found
+
+
+@contextmanager
+def _quietly() -> Iterator[None]:
+    """Nothing of what OpenCASCADE says about its work goes to standard output, where a picture may go."""
+    messenger = _occ("Message").Message.DefaultMessenger_s()
+    printers = _listed(messenger.Printers())
+    for printer in printers:
+        messenger.RemovePrinter(printer)
+    try:
+        yield
+    finally:
+        for printer in printers:
+            messenger.AddPrinter(printer)
+
+
+def _listed(sequence: Any) -> list[Any]:
+    return [sequence.Value(number) for number in range(1, sequence.Length() + 1)]
+
+
+_Look = tuple[str, Floats | None]
+"""A name, which may be empty, and red, green, blue and opacity (4,), if they are known."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Part:
+    """A shape as it stands alone, where it stands, its name and colour (4,), the assembly in the whole that it belongs
+    to, and the names and colours of faces and solids in it."""
+
+    shape: Any
+    location: Any
+    name: str
+    colour: Floats | None = None
+    group: str = ""
+    within: Callable[[Any], _Look] = lambda _: ("", None)
+
+
+def _read_shape(path: Path) -> Any:
+    """The shape in a BREP file."""
+    with path.open("rb") as file:
+        if not file.read(_BEGINNING).lstrip().startswith(_BREP_BEGINS):
+            raise InputError("not a BREP file: it does not begin as one")
+    shape = _occ("TopoDS").TopoDS_Shape()
+    if not _occ("BRepTools").BRepTools.Read_s(shape, str(path), _occ("BRep").BRep_Builder()) or shape.IsNull():
+        raise InputError("not a BREP file that OpenCASCADE can read")
+    return shape
+
+
+def _read_document(path: Path, iges: bool) -> list[_Part]:
+    """The parts in a STEP or IGES file."""
+    document = _occ("TDocStd").TDocStd_Document(_occ("TCollection").TCollection_ExtendedString("vectorplot"))
+    if iges:
+        reader = _occ("IGESCAFControl").IGESCAFControl_Reader()
+    else:
+        reader = _occ("STEPCAFControl").STEPCAFControl_Reader()
+    kind = "an IGES" if iges else "a STEP"
+    if reader.ReadFile(str(path)) != _occ("IFSelect").IFSelect_ReturnStatus.IFSelect_RetDone:
+        raise InputError(f"not {kind} file that OpenCASCADE can read: it is damaged, or something else")
+    if not reader.Transfer(document):
+        raise InputError("it holds no shapes that OpenCASCADE can make")
+    return _parts_of_document(document, path.stem)
+
+
+def _labels(fill: Callable[[Any], object]) -> list[Any]:
+    """The labels that a function fills a sequence with."""
+    try:
+        labels = _occ("TDF").TDF_LabelSequence()
+    except AttributeError:
+        labels = _occ("collections").Sequence_TDF_Label()
+    fill(labels)
+    return _listed(labels)
+
+
+def _parts_of_document(document: Any, stem: str) -> list[_Part]:
+    """The parts of a document in the order of its assemblies, each time that they are used."""
+    xcaf = _occ("XCAFDoc")
+    tools, shapes = xcaf.XCAFDoc_DocumentTool, xcaf.XCAFDoc_ShapeTool
+    tool, colours = tools.ShapeTool_s(document.Main()), tools.ColorTool_s(document.Main())
+    found, taken = list[_Part](), Counter[str]()
+    waiting: list[tuple[Any, Any, Floats | None, int, str]] = []
+    waiting += [(label, _nowhere(), None, 0, "") for label in reversed(_labels(tool.GetFreeShapes))]
+    while waiting:
+        label, location, colour, depth, group = waiting.pop()
+        if depth > MOST_DEPTH:
+            raise InputError(f"assemblies are more than {MOST_DEPTH} deep")
+        own, product = _colour_of(colours, label), label
+        if shapes.IsReference_s(label):
+            location = location.Multiplied(shapes.GetLocation_s(label))
+            product = _occ("TDF").TDF_Label()
+            shapes.GetReferredShape_s(label, product)
+        colour = next((one for one in (own, _colour_of(colours, product), colour) if one is not None), None)
+        name = _name_of(product) or _name_of(label) or stem
+        if shapes.IsAssembly_s(product):
+            # What moves as one is an assembly in the whole, with all that is in it.
+            group = group or (_told_apart(name, taken) if depth else "")
+            inside = _labels(partial(shapes.GetComponents_s, product))
+            waiting += [(one, location, colour, depth + 1, group) for one in reversed(inside)]
+            continue
+        within = _looks_within(colours, product)
+        found.append(_Part(shapes.GetShape_s(product), location, name, colour, group, within))
+    return found
+
+
+def _nowhere() -> Any:
+    """The location of what stays where it is."""
+    return _occ("TopLoc").TopLoc_Location()
+
+
+def _told_apart(name: str, taken: Counter[str]) -> str:
+    """A name, with a number behind it where it was taken before."""
+    taken[name] += 1
+    return name if taken[name] == 1 else f"{name} {taken[name]}"
+
+
+def _name_of(label: Any) -> str:
+    """What a label is called; nothing for names that only number it."""
+    names = _occ("TDataStd").TDataStd_Name
+    # The binding does not survive asking for an attribute that is not there.
+    if not label.IsAttribute(names.GetID_s()):
+        return ""
+    attribute = names()
+    label.FindAttribute(names.GetID_s(), attribute)
+    name = str(attribute.Get().ToExtString()).strip()
+    return "" if name.startswith(_NO_NAMES) or name in _KINDS_ALONE else name
+
+
+def _looks_within(colours: Any, label: Any) -> Callable[[Any], _Look]:
+    """What solids and faces of a part are called, and their colours."""
+    shapes = _occ("XCAFDoc").XCAFDoc_ShapeTool
+    inside, numbers = _labels(partial(shapes.GetSubShapes_s, label)), _Numbers()
+    looks = {numbers.of(shapes.GetShape_s(one)): (_name_of(one), _colour_of(colours, one)) for one in inside}
+    return lambda shape: looks.get(numbers.of(shape), ("", None)) if looks else ("", None)
+
+
+def _colour_of(colours: Any, label: Any) -> Floats | None:
+    """(4,) red, green, blue and opacity of a label; None where it has none."""
+    kinds, rgba = _occ("XCAFDoc").XCAFDoc_ColorType, _occ("Quantity").Quantity_ColorRGBA()
+    for kind in (kinds.XCAFDoc_ColorSurf, kinds.XCAFDoc_ColorGen):
+        if colours.GetColor_s(label, kind, rgba):
+            return _shares(rgba)
+    return None
+
+
+def _shares(rgba: Any) -> Floats:
+    srgb = rgba.GetRGB().Values(_occ("Quantity").Quantity_TypeOfColor.Quantity_TOC_sRGB)
+    return np.array([*srgb, rgba.Alpha()])
+
+
+# Objects of libraries that OpenCASCADE is below of: build123d, CadQuery.
+
+
+def cad_object_scene(shown: Any) -> Scene | None:
+    """The scene of a shape of OpenCASCADE, or of an object of build123d or CadQuery, known by what it has: a shape that
+    is wrapped, the values of a workplane, the shapes of an assembly, the part of a builder. None for anything else; the
+    object stays as it was.
+
+    Errors: InputError for one without faces.
+    """
+    name = type(shown).__name__
+    parts = _parts_of_object(shown, name.lower())
+    if not parts:
+        return None
+    try:
+        with _quietly():
+            return _scene(parts, USUAL_TOLERANCE)
+    except InputError as error:
+        raise InputError(f"{name}: {error.cause}") from None
+
+
+def _parts_of_object(shown: Any, name: str) -> list[_Part]:
+    shape, taken, found = _wrapped(shown), Counter[str](), list[_Part]()
+    if callable(getattr(shown, "vals", None)):
+        return [part for value in shown.vals() for part in _parts_of_object(value, name)]
+    if callable(getattr(shown, "toCompound", None)) and hasattr(shown, "children"):
+        groups = dict[str, str]()
+        for inner, path, location, colour in shown:
+            # Of an assembly a/b/c, which need have no b, b is what moves as one.
+            _, *inside, own = ["", *path.split("/")] if "/" not in path else path.split("/")
+            key = inside[0] if inside else ""
+            if key not in groups:
+                groups[key] = _told_apart(key, taken) if key else ""
+            shares = None if colour is None else _shares(colour.wrapped)
+            found.append(_Part(_copied(inner.wrapped), location.wrapped, own, shares, groups[key]))
+        return found
+    if shape is None:
+        inner = next((one for word in ("part", "sketch") if (one := getattr(shown, word, None)) is not None), None)
+        return [] if inner is None or _wrapped(inner) is None else _parts_of_object(inner, name)
+    waiting: list[tuple[Any, Any, Floats | None, int, str]] = [(shown, _nowhere(), None, 0, "")]
+    while waiting:
+        one, location, colour, depth, group = waiting.pop()
+        own = getattr(getattr(one, "color", None), "wrapped", None)
+        colour = colour if own is None else _shares(own)
+        label, children = getattr(one, "label", "") or name, getattr(one, "children", ())
+        if not children:
+            found.append(_Part(_copied(_wrapped(one)), location, str(label), colour, group))
+            continue
+        group = group or (_told_apart(str(label), taken) if depth else "")
+        location = location.Multiplied(_wrapped(one).Location())
+        waiting += [(child, location, colour, depth + 1, group) for child in reversed(children)]
+    return found
+
+
+def _wrapped(shown: Any) -> Any:
+    """The shape of OpenCASCADE that something is or wraps; None for what is none."""
+    kind = _occ("TopoDS").TopoDS_Shape
+    return next((one for one in (shown, getattr(shown, "wrapped", None)) if isinstance(one, kind)), None)
+
+
+def _copied(shape: Any) -> Any:
+    """A shape that can be divided into triangles without a change of the given one."""
+    return _occ("BRepBuilderAPI").BRepBuilderAPI_Copy(shape, False, False).Shape()
+
+
+# Parts -> bodies -> items.
+
+
+def _scene(parts: Sequence[_Part], tolerance: float) -> Scene:
+    """The items of parts, those that are used several times triangulated once."""
+    shapes, boxes, made = _Numbers(), dict[int, Floats](), dict[tuple[int, bytes], list[Item]]()
+    numbers = [shapes.of(part.shape) for part in parts]
+    for number, part in zip(numbers, parts, strict=True):
+        boxes.setdefault(number, _corners(part.shape))
+    matrices = [_matrix(part.location) for part in parts]
+    around = [_moved(boxes[number], matrix) for number, matrix in zip(numbers, matrices, strict=True)]
+    every = np.concatenate([np.zeros((0, 3)), *around])
+    if not len(every):
+        raise InputError("it holds no faces")
+    check_range(np.array([every.min(axis=0), every.max(axis=0)]))
+    extent = float(norm(np.ptp(every, axis=0)))
+    items, triangles, taken = list[Item](), 0, Counter(part.group for part in parts)
+    for number, part, matrix in zip(numbers, parts, matrices, strict=True):
+        may_stop()
+        key = number, b"" if part.colour is None else part.colour.tobytes()
+        if key not in made:
+            made[key] = _items_of_part(part, tolerance * extent, extent)
+        several = len(made[key]) > 1 and not part.group
+        group = _told_apart(part.name, taken) if several else part.group
+        own = [replace(item, group=group) for item in made[key]]
+        items += own if (matrix == np.eye(4)).all() else [item.transformed(matrix) for item in own]
+        triangles += sum(item.mesh.face_count for item in made[key])
+        if triangles > MOST_TRIANGLES:
+            raise InputError(f"its parts take more than {MOST_TRIANGLES} triangles: allow a coarser tolerance")
+    if not items:
+        raise InputError("it holds no faces")
+    return together([Scene((item,)) for item in items])
+
+
+def _corners(shape: Any) -> Floats:
+    """(8,3) the corners of the box around the faces of a shape; (0,3) where it has none."""
+    if not any(True for _ in _explored(shape, "FACE")):
+        return np.zeros((0, 3))
+    box = _occ("Bnd").Bnd_Box()
+    _occ("BRepBndLib").BRepBndLib.Add_s(shape, box, False)
+    low, high = (np.array(corner.Coord()) for corner in (box.CornerMin(), box.CornerMax()))
+    return np.where(np.array(list(np.ndindex(2, 2, 2))) == 1, high, low)
+
+
+def _matrix(location: Any) -> Floats:
+    """(4,4) the matrix of a location."""
+    moved, matrix = location.Transformation(), np.eye(4)
+    matrix[:3] = [[moved.Value(row, column) for column in range(1, 5)] for row in range(1, 4)]
+    return matrix
+
+
+def _moved(points: Floats, matrix: Floats) -> Floats:
+    return matmul(points, matrix[:3, :3].T) + matrix[:3, 3]
+
+
+def _explored(shape: Any, kind: str, outside: str = "SHAPE") -> Iterator[Any]:
+    """The parts of a shape of a kind, such as FACE, that are in none of another kind."""
+    kinds, topods = _occ("TopAbs").TopAbs_ShapeEnum, _occ("TopoDS").TopoDS
+    name = kind.capitalize()
+    cast = getattr(topods, f"{name}_s", None) or getattr(topods, name)
+    explorer = _occ("TopExp").TopExp_Explorer(
+        shape, getattr(kinds, f"TopAbs_{kind}"), getattr(kinds, f"TopAbs_{outside}")
+    )
+    while explorer.More():
+        yield cast(explorer.Current())
+        explorer.Next()
+
+
+def _items_of_part(part: _Part, distance: float, extent: float) -> list[Item]:
+    """The items of a part where it stands alone; distance: how far chords of edges may be off; extent: of all that is
+    read."""
+    solids = list(_explored(part.shape, "SOLID"))
+    free = list(_explored(part.shape, "FACE", outside="SOLID"))
+    sewn = _sewn(free, SEWN_OF_EXTENT * extent) if free else []
+    items = list[Item]()
+    for shape in [*solids, *sewn]:
+        called, own = part.within(shape)
+        name, colour = called or part.name, part.colour if own is None else own
+        ways = _occ("IMeshTools").IMeshTools_MeshAlgoType
+        # The first way takes a tenth of the time on plates with hundreds of bores, and fails on some faces.
+        for way in (ways.IMeshTools_MeshAlgoType_Delabella, ways.IMeshTools_MeshAlgoType_Watson):
+            may_stop()
+            _divide(shape, distance, way)
+            body, left = _body(shape, colour, part.within)
+            made = [body_item(name, body)] if len(body.triangles) else []
+            if not left and all(item.mesh.is_closed for item in made):
+                break
+        if left:
+            text = f"{name}: {left} faces could not be divided into triangles: they are left out"
+            warnings.warn(text, InputWarning, stacklevel=2)
+        items += made
+    return items
+
+
+def _divide(shape: Any, distance: float, way: Any) -> None:
+    """Divides the faces of a shape into triangles in one of the ways that OpenCASCADE has."""
+    _occ("BRepTools").BRepTools.Clean_s(shape)
+    fineness = _occ("IMeshTools").IMeshTools_Parameters()
+    fineness.Deflection, fineness.DeflectionInterior = distance, INSIDE_FACES * distance
+    fineness.Angle = fineness.AngleInterior = WIDEST_TURN
+    fineness.MeshAlgo = way
+    _occ("BRepMesh").BRepMesh_IncrementalMesh(shape, fineness)
+
+
+def _sewn(faces: Sequence[Any], near: float) -> list[Any]:
+    """Solids and open shapes that faces of no solid make, which are joined along edges that are near each other."""
+    sewing = _occ("BRepBuilderAPI").BRepBuilderAPI_Sewing(near)
+    for face in faces:
+        sewing.Add(face)
+    sewing.Perform()
+    whole = sewing.SewedShape()
+    shells = list(_explored(whole, "SHELL"))
+    closed = [shell for shell in shells if _occ("BRep").BRep_Tool.IsClosed_s(shell)]
+    made = [_occ("ShapeFix").ShapeFix_Solid().SolidFromShell(shell) for shell in closed]
+    rest = [shell for shell in shells if shell not in closed]
+    alone = list(_explored(whole, "FACE", outside="SHELL"))
+    if alone:
+        builder, compound = _occ("BRep").BRep_Builder(), _occ("TopoDS").TopoDS_Compound()
+        builder.MakeCompound(compound)
+        for face in alone:
+            builder.Add(compound, face)
+        rest.append(compound)
+    return [*made, *rest]
+
+
+def _body(shape: Any, colour: Floats | None, within: Callable[[Any], _Look]) -> tuple[CadBody, int]:
+    """What the triangulated faces of a shape are, and how many of them have no triangles. colour: of faces that have
+    none of their own."""
+    edges, missing, start = _Numbers(), 0, 0
+    points, normals, triangles = [np.zeros((0, 3))], [np.zeros((0, 3))], [np.zeros((0, 3), dtype=np.intp)]
+    bending, flat, shares, counts = [np.zeros(0)], list[bool](), list[Floats](), list[int]()
+    nodes, sizes, edge, user = [np.zeros(0, dtype=np.intp)], list[int](), list[int](), list[int]()
+    tool = _occ("BRep").BRep_Tool
+    for face in _explored(shape, "FACE"):
+        may_stop()
+        location = _occ("TopLoc").TopLoc_Location()
+        triangulation = tool.Triangulation_s(face, location)
+        if triangulation is None or not triangulation.NbTriangles():
+            missing += 1
+            continue
+        number, turned = len(flat), face.Orientation() == _occ("TopAbs").TopAbs_Orientation.TopAbs_REVERSED
+        matrix = _matrix(location)
+        own = _moved(np.array([node.Coord() for node in triangulation.MapNodeArray()]), matrix)
+        corners = np.array([one.Get() for one in triangulation.MapTriangleArray()], dtype=np.intp) - 1
+        is_flat, up, bent = _surface(face, triangulation)
+        points.append(own)
+        normals.append(-up if turned else up)
+        bending.append(-bent if turned else bent)
+        triangles.append(start + (corners[:, ::-1] if turned else corners))
+        counts.append(len(corners))
+        flat.append(is_flat)
+        given = within(face)[1]
+        given = colour if given is None else given
+        shares.append(np.full(4, np.nan) if given is None else given)
+        for one in _explored(face, "EDGE"):
+            along = None if tool.Degenerated_s(one) else tool.PolygonOnTriangulation_s(one, triangulation, location)
+            if along is not None:
+                nodes.append(start - 1 + np.array(list(along.Nodes()), dtype=np.intp))
+                sizes.append(len(nodes[-1]))
+                edge.append(edges.of(one))
+                user.append(number)
+        start += len(own)
+    body = CadBody(
+        np.concatenate(points),
+        np.concatenate(normals),
+        np.concatenate(bending),
+        np.concatenate(triangles),
+        ragged.owner(counts),
+        np.array(flat, dtype=np.bool_),
+        np.array(shares).reshape(-1, 4),
+        np.concatenate(nodes),
+        ragged.offsets(sizes),
+        np.array(edge, dtype=np.intp),
+        np.array(user, dtype=np.intp),
+    )
+    return body, missing
+
+
+def _surface(face: Any, triangulation: Any) -> tuple[bool, Floats, Floats]:
+    """Whether a face is flat, and at the points (n,) of its triangles the unit normals (n,3), to the left of v and
+    before u, and the mean curvatures of its surface."""
+    gp, adaptor = _occ("gp"), _occ("BRepAdaptor").BRepAdaptor_Surface(face, False)
+    is_flat = str(adaptor.GetType()).endswith("_Plane")
+    places = [place.Coord() for place in triangulation.MapUVNodeArray()]
+    point, derivatives = gp.gp_Pnt(), [gp.gp_Vec() for _ in ("u", "v", "uu", "vv", "uv")]
+    found = np.empty((len(places), 5, 3))
+    for row, (u, v) in enumerate(places[:1] if is_flat else places):
+        adaptor.D2(u, v, point, *derivatives)
+        found[row] = [one.Coord() for one in derivatives]
+    if is_flat:
+        found[1:] = found[0]
+    along_u, along_v = found[:, 0], found[:, 1]
+    normals, sizes = cross(along_u, along_v), norm(found[:, :2])
+    # Where parameter lines meet in a point, or run along each other, there is no normal.
+    none = norm(normals) <= NO_CAD_NORMAL * sizes.max(axis=0, initial=0.0).prod()
+    normals = np.where(none[:, None], 0.0, normals / np.where(none, 1.0, norm(normals))[:, None])
+    e, f, g = dot(along_u, along_u), dot(along_u, along_v), dot(along_v, along_v)
+    second_u, second_v, mixed = (dot(found[:, k], normals) for k in (2, 3, 4))
+    area = np.where(none, np.nan, 2.0 * (e * g - f * f))
+    return is_flat, normals, (e * second_v - 2.0 * f * mixed + g * second_u) / area
