@@ -26,11 +26,20 @@ from vectorplot.features.pinch_points import COLUMNS, ROWS
 from vectorplot.geometry.budget import USUAL
 from vectorplot.geometry.projections import FARTHEST_OFF_AXIS_DEG, ULPS
 from vectorplot.io import molecules
-from vectorplot.pictures import banded_bodies, pixels, plan
-from vectorplot.pictures.plan import plan_bodies, plan_paint
+from vectorplot.pictures import pixels, plan
+from vectorplot.pictures.plan import plan_bodies, plan_paint, plan_surface_bands
 from vectorplot.save import write
 from vectorplot.scene import pens
-from vectorplot.shading import facet_resolution, illumination, image, palettes, scene_pixels, screen, shadow_maps
+from vectorplot.shading import (
+    facet_resolution,
+    illumination,
+    image,
+    palettes,
+    scene_pixels,
+    screen,
+    shade_bands,
+    shadow_maps,
+)
 from vectorplot.shading.painted_colours import VARIED
 from vectorplot.shading.pixel_coverage import SUBPIXELS
 from vectorplot.surfaces import Sphere
@@ -153,7 +162,7 @@ def test_numbers_that_pages_say_in_words_are_those_of_the_code() -> None:
     assert VARIED == 2.0 / palettes.PALETTE_SIZE
     assert facet_resolution.SHADE_ERROR == 2.0 / 255.0 and facet_resolution.SHADE_LIMITS == (0.5, 4.0)
     assert (facet_resolution.DEEP_IN_LIGHT, facet_resolution.LEAST_DEEP) == (3.0, 5.0)
-    assert (banded_bodies.MIDDLING_MM, banded_bodies.NARROWEST, banded_bodies.WIDEST) == (10.0, 0.5, 2.0)
+    assert (shade_bands.MIDDLING_MM, shade_bands.NARROWEST, shade_bands.WIDEST) == (10.0, 0.5, 2.0)
     assert plan.DEEP == 2.0 and soft_shadows.LEVELS == 9
     assert molecules.BALL_OF_RADIUS == 0.25
     assert Pen().width_mm == 0.3
@@ -194,6 +203,7 @@ def test_the_stages_of_paint_stand_on_its_page() -> None:
         for fills in ("painted", "visible", "erasing")
         for stage in plan_bodies(plan_paint(scene, "auto", fills, frozenset({LineKind.CONTOUR})))
     }
+    planned |= {stage.name for stage in plan_surface_bands(plan_paint(scenes[0], "auto", "painted", frozenset()))}
     assert planned == stages - {"---"}
 
 

@@ -221,8 +221,8 @@ def test_the_aura_of_a_shadow_is_as_wide_on_the_page_as_it_is_told(fit: bool) ->
 
 
 @pytest.mark.slow
-def test_smooth_surfaces_are_shaded_from_corner_to_corner_unless_told_otherwise() -> None:
-    ring = Scene((Item("RING", Torus(1.0, 0.5)),), (SUN,))
+def test_smooth_surfaces_in_groups_are_shaded_from_corner_to_corner_unless_told_otherwise() -> None:
+    ring = Scene((Item("RING", Torus(1.0, 0.5), group="G"),), (SUN,))
     smooth, flat = (fills_of(paint(ring, CAMERAS[0], smooth=on, tolerance_mm=0.5)) for on in (True, False))
     assert _varies(smooth).mean() > 0.8 and not _varies(flat).any()
     finer = fills_of(paint(ring, CAMERAS[0], tolerance_mm=0.05))

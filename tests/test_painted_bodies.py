@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import shapely
 from support.body_colours import assert_shown
-from support.top_fills import fills_of, top_at
+from support.top_fills import fills_of, region_of, top_at
 
 import vectorplot as vp
 from vectorplot.drawing.drawing import Drawing
@@ -22,6 +22,9 @@ LAMPS = (vp.Light((5, -6, 7)), vp.Light((-1, -1, 1), parallel=True), vp.Light((3
 COLOURS = ("gray", "blue", "red", "green", "yellow", "cyan")
 ROUND = (Sphere(1.0, (3, 0, 0)), Ellipsoid((1, 2, 0.5)), rod((0, 0, 1), (1, 2, 3), 0.3))
 FRUSTUM = Capped(Frustum(1.0, 0.4, 2.0, (0, 5, 0)))
+
+SPECK_MM2 = 0.01
+"""As much may be missing: rings that lead to holes and back do not lie on each other exactly."""
 
 BESIDE_MM = 0.06
 """Nearer than this to the outline of a body, or the border of a shadow, the one or the other may be painted."""
@@ -100,13 +103,10 @@ def test_bodies_that_pierce_each_other_are_seen_as_rays_see_them(made, seed, lig
 @pytest.mark.parametrize("width", [30, 100, 200])
 def test_nothing_shines_through_between_bands(word, width):
     drawing = vp.paint(scene_of(Sphere(2.0), word=word, lights=LAMPS[:1]), CENTRAL, width=width)
-    fills = fills_of(drawing)
-    rings = shapely.linearrings(fills.points, indices=np.repeat(np.arange(len(fills)), np.diff(fills.offsets)))
-    seen = shapely.union_all(shapely.polygons(rings))
-    parts = shapely.get_parts(seen)
+    parts = shapely.get_parts(region_of(fills_of(drawing)))
     body = parts[shapely.area(parts).argmax()]
-    assert shapely.area(parts).sum() - shapely.area(body) < 1e-3
-    assert shapely.area(shapely.Polygon(body.exterior)) - body.area < 1e-3
+    assert shapely.area(parts).sum() - shapely.area(body) < SPECK_MM2
+    assert shapely.area(shapely.Polygon(body.exterior)) - body.area < SPECK_MM2
 
 
 @pytest.mark.parametrize("factor", [1e-6, 1e6])

@@ -995,7 +995,7 @@ SAME_SHADE = 1e-9
 """Shades of one point, found from two triangles at it, differ by rounding only below this part of a palette; those on
 two sides of a sharp edge by much more."""
 
-SAME_NORMAL = 1e-4
+SAME_CORNER_NORMAL = 1e-4
 """Normals at one corner of facets, interpolated on each of these, differ by rounding only below this; those on two
 sides of a sharp edge by much more."""
 
@@ -1025,3 +1025,27 @@ WRONG_DERIVATIVE = 1e-3
 
 LEAST_SLOPE = 1e-3
 """Part of the steepest slope of an equation by which values are divided at least, to be distances."""
+
+CERTIFIED_POLE = 1e-8
+"""Where an end of a domain is one point, so small a part of the domain is left out of certificates: its image has no
+size."""
+
+CERTIFIED_FORMULA = 1e-11
+"""Formulas in certificates give the points of the surface they stand for, but for so much, relative to its size."""
+
+MEANT_AT_POLE = 1e-6
+"""So near to a pole, as a part of the domain, curves of certificates are meant to be in it."""
+
+CERTIFIED_DAMPING = 1e-3
+"""How strongly steps of Levenberg and Marquardt's method are damped where places on surfaces are looked for, as a part
+of the trace."""
+
+USUAL_PART_TOLERANCE = 5e-5
+"""Chords of edges of CAD parts are no farther off than this part of the diagonal of all that is read: 0.02 mm on a page
+A4."""
+
+LEAST_PART_TOLERANCE = 2e-6
+"""Finer ones take minutes to read."""
+
+OFF_PAGE_MM = 1e-6
+"""Letters that leave their page by less, which may be rounding, are on it."""

@@ -569,11 +569,10 @@ def _united(layers: _Layers, fills: Fills, depth: Ints | None = None) -> _Layers
 
 def _listed(layers: _Layers, fills: Fills, page_from_world: Floats) -> Overlay:
     """Regions as polygons without holes; shaded ones that are not convex as triangles."""
-    import shapely
 
     parts, of = without_splinters(layers.region, GRID_MM)
     parts, of = without_holes(parts, of)
-    parts, of = _convex_if_shaded(shapely.simplify(parts, GRID_MM), of, layers, fills)
+    parts, of = _convex_if_shaded(parts, of, layers, fills)
     flat, offsets = corners_of(parts)
     sizes = np.diff(offsets)
     source, owner = layers.source[of], np.repeat(of, sizes)
@@ -596,6 +595,7 @@ def _convex_if_shaded(parts: Any, of: Ints, layers: _Layers, fills: Fills) -> tu
     import shapely
 
     shaded = _shaded(fills)[layers.source[of]]
+    parts = np.where(shaded, shapely.simplify(parts, GRID_MM), parts)
     hull = shapely.convex_hull(parts)
     bent = shaded & (shapely.area(hull) - shapely.area(parts) > GRID_MM * shapely.length(parts))
     parts = np.where(shaded & ~bent, hull, parts)

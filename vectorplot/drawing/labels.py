@@ -40,7 +40,7 @@ from vectorplot.scene.labels import Along, BesidePoint, Label, OnCurve, OnPage, 
 from vectorplot.scene.placement import Placement
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
-from vectorplot.tolerances import COINCIDENT_MM
+from vectorplot.tolerances import COINCIDENT_MM, LEAST_DIVISOR
 from vectorplot.visibility.hidden_points import points_hidden_by
 from vectorplot.visibility.projected_faces import ProjectedFaces
 from vectorplot.words import LineKind
@@ -983,7 +983,7 @@ def rooms_of_labels(
     point it is taken to be on the side that leads away from the middle of the picture.
     """
     some, low, high = [], [], []
-    middle, reach = filled.mean(axis=0), np.maximum(np.ptp(filled, axis=0), np.finfo(float).tiny)
+    middle, reach = filled.mean(axis=0), np.maximum(np.ptp(filled, axis=0), LEAST_DIVISOR)
     order = [word for word in DIRECTIONS if word not in ("auto", "centre")]
     ways = np.array([DIRECTIONS[word] for word in order])
     for k, label in enumerate(anchors.labels):

@@ -33,14 +33,14 @@ from vectorplot.scene.item import Item, SurfaceNormals
 from vectorplot.scene.material import Material
 from vectorplot.scene.scene import Scene, together
 from vectorplot.scene.surface_lines import SurfaceLines
-from vectorplot.tolerances import LEAST_DIVISOR, NO_CAD_NORMAL, SEWN_OF_EXTENT
+from vectorplot.tolerances import (
+    LEAST_DIVISOR,
+    LEAST_PART_TOLERANCE,
+    NO_CAD_NORMAL,
+    SEWN_OF_EXTENT,
+    USUAL_PART_TOLERANCE,
+)
 from vectorplot.words import DRAWN, LineKind
-
-USUAL_TOLERANCE = 5e-5
-"""Chords of edges are no farther off than this part of the diagonal of all that is read: 0.02 mm on a page A4."""
-
-LEAST_TOLERANCE = 2e-6
-"""Finer ones take minutes to read."""
 
 INSIDE_FACES = 4.0
 """Triangles may be so many times as far off their faces: contours lie on cubics, not on these."""
@@ -257,10 +257,10 @@ def _occ(module: str) -> Any:
     return import_module(f"OCP.{module}")
 
 
-def cad_scene(path: Path, tolerance: float = USUAL_TOLERANCE) -> Scene:
+def cad_scene(path: Path, tolerance: float = USUAL_PART_TOLERANCE) -> Scene:
     """The bodies in a STEP, IGES or BREP file, in millimetres, each an item with the names and colours of the file;
     those of one part, or of one assembly in the whole, are a group. tolerance: how far chords of edges may be off, as
-    part of the diagonal of all that is read; no less than LEAST_TOLERANCE counts.
+    part of the diagonal of all that is read; no less than LEAST_PART_TOLERANCE counts.
 
     Errors: InputError where OpenCASCADE is not installed, for a file that it cannot read or that holds no faces, and
     for a tolerance that is not positive.
@@ -279,7 +279,7 @@ def cad_scene(path: Path, tolerance: float = USUAL_TOLERANCE) -> Scene:
                 parts = [_Part(_read_shape(path), _nowhere(), path.stem)]
             else:
                 parts = _read_document(path, suffix in _IGES_SUFFIXES)
-            return _scene(parts, max(tolerance, LEAST_TOLERANCE))
+            return _scene(parts, max(tolerance, LEAST_PART_TOLERANCE))
     except InputError as error:
         raise (error if error.file else InputError(error.cause, file=name)) from None
     except MemoryError:
@@ -471,7 +471,7 @@ def cad_object_scene(shown: Any) -> Scene | None:
         return None
     try:
         with _quietly():
-            return _scene(parts, USUAL_TOLERANCE)
+            return _scene(parts, USUAL_PART_TOLERANCE)
     except InputError as error:
         raise InputError(f"{name}: {error.cause}") from None
 

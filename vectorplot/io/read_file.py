@@ -125,9 +125,10 @@ def read(
     if path.suffix.lower() in MESH_SUFFIXES:
         return mesh_scene(path)
     if path.suffix.lower() in CAD_SUFFIXES:
-        from vectorplot.io.cad_files import USUAL_TOLERANCE, cad_scene
+        from vectorplot.io.cad_files import cad_scene
+        from vectorplot.tolerances import USUAL_PART_TOLERANCE
 
-        return cad_scene(path, USUAL_TOLERANCE if tolerance is None else tolerance)
+        return cad_scene(path, USUAL_PART_TOLERANCE if tolerance is None else tolerance)
     _check_text(path)
     return _scene_text(path)
 

@@ -29,7 +29,7 @@ from vectorplot.shading.shade_bands import (
     palette_reaches,
 )
 from vectorplot.shading.shaded_faces import item_colours
-from vectorplot.tolerances import LEAST_DIVISOR, SAME_AREA, SAME_NORMAL, SHADOW_CORNER_MM
+from vectorplot.tolerances import LEAST_DIVISOR, SAME_AREA, SAME_CORNER_NORMAL, SHADOW_CORNER_MM
 from vectorplot.visibility.painter.image_faces import ImageFaces, view_points
 
 ROUND = np.pi / 2.0
@@ -156,8 +156,8 @@ def _nodes(points: Floats, normals: Floats) -> Ints:
     order = np.argsort(number, kind="stable")
     starts = np.flatnonzero(np.diff(number[order], prepend=-1))
     low, high = (extreme.reduceat(normals[:, order], starts, axis=1) for extreme in (np.minimum, np.maximum))
-    several = np.flatnonzero(((high - low).max(axis=0) > SAME_NORMAL)[number])
-    rows = np.column_stack([number[several], np.rint(normals[:, several] / SAME_NORMAL).T])
+    several = np.flatnonzero(((high - low).max(axis=0) > SAME_CORNER_NORMAL)[number])
+    rows = np.column_stack([number[several], np.rint(normals[:, several] / SAME_CORNER_NORMAL).T])
     found = number.copy()
     found[several] = len(number) + np.unique(rows, axis=0, return_inverse=True)[1].reshape(-1)
     return found

@@ -329,7 +329,9 @@ def coloured(
         bands, off = pipeline.run(
             "surface bands", banded_surfaces, seen.view, lighting, faces, layer, on_faces, place, tolerance_mm
         )
-        pipeline.measured("surface bands", "of 255", lambda: off)
+        # Facets are off what they stand for, and colours what their band is.
+        own = replace(seen, faces=faces)
+        pipeline.measured("surface bands", "of 255", lambda: off + (shade_error_steps(own, lighting) or 0.0))
         # What lies on a face comes right after it; paper comes first.
         leader = np.maximum.accumulate(np.where(painted.after >= 0, np.arange(len(painted.after)), -1))
         below = -1 - int(split.layer.max(initial=0))
@@ -361,10 +363,12 @@ def _layers(seen: VisiblePolygons, lighting: Lighting) -> _Split | None:
     view, faces = seen.view, seen.faces
     banded = seen.smooth[view.face_item] & smooth_faces(view, lighting.normals)
     banded = (banded & np.array([may_have_bands(item) for item in seen.scene.items])[view.shown_item])[faces.source]
+    if not banded.any():
+        return None
     plane = np.where(banded, -1, lighting.plane[faces.source])
     new = np.append(True, banded[1:] | (plane[1:] != plane[:-1]))[: len(plane)]
     unit = np.cumsum(new) - 1
-    layer = picture_layers(faces, unit, view.tolerance) if banded.any() else None
+    layer = picture_layers(faces, unit, view.tolerance)
     return None if layer is None else _Split(banded, layer, unit)
 
 

@@ -29,6 +29,7 @@ from vectorplot.scene.placement import FittedPage, Placement, allowed_in_space, 
 from vectorplot.scene.scales import ScaleBar
 from vectorplot.scene.scene import Scene, tell_what_is_cut_off
 from vectorplot.scene.view import View, without_seams
+from vectorplot.tolerances import OFF_PAGE_MM
 
 if TYPE_CHECKING:
     from vectorplot.drawing.labels import SceneLabels
@@ -108,7 +109,7 @@ class PreparedScene:
         some, low, high = rooms_of_labels(self.anchors, image.T, placement.filled, page.margin_mm / mm, mm)
         on_page, edge = placement.on_page(image[:, some]), np.array(page.margin_mm)
         right = np.array([placement.page.width_mm, placement.page.height_mm]) - edge
-        if (on_page + low >= edge - ROUNDING_MM).all() and (on_page + high <= right + ROUNDING_MM).all():
+        if (on_page + low >= edge - OFF_PAGE_MM).all() and (on_page + high <= right + OFF_PAGE_MM).all():
             return placed
         corners = np.concatenate([placement.filled.T, image[:, some]], axis=1)
         nothing = np.zeros((2, 2))
@@ -176,9 +177,6 @@ def _seen_part(
 
 
 # What stands around a picture on its page: a title, a frame, and a bar where colours stand for numbers.
-
-ROUNDING_MM = 1e-6
-"""Letters that leave their page by less are on it."""
 
 MOST_NAMES = 3
 """So many labels are named in a warning."""

@@ -55,7 +55,15 @@ from vectorplot.surfaces.tori import Torus
 from vectorplot.testing import certified_image as image
 from vectorplot.testing import certified_surfaces as shapes
 from vectorplot.testing import check_certificate as checker
-from vectorplot.tolerances import CERTIFIED_MM, ROUNDING
+from vectorplot.tolerances import (
+    CERTIFIED_DAMPING,
+    CERTIFIED_FORMULA,
+    CERTIFIED_MM,
+    CERTIFIED_POLE,
+    LEAST_DIVISOR,
+    MEANT_AT_POLE,
+    ROUNDING,
+)
 from vectorplot.visibility.polyhedra.lines import kinds_of
 from vectorplot.words import DRAWN, LineKind, line_kinds
 
@@ -70,12 +78,6 @@ SMOOTH_MM = 0.05
 
 COARSEST = 8
 """Lines of a net along u and v, from which it is refined."""
-
-POLE = 1e-8
-"""Where an end of the domain is one point, so small a part of the domain is left out: its image has no size."""
-
-FORMULA = 1e-11
-"""Formulas give the points of the surface they stand for, but for so much, relative to its size."""
 
 STRETCHED = 2.0
 """Gaps between dashes are no more than so many times as long as they are meant to be."""
@@ -344,11 +346,11 @@ def surfaces_of(shape: Any) -> tuple[_Surface, ...]:
         for knots, rows in ((u, points), (v, points.swapaxes(0, 1))):
             for end, step in ((0, 1), (-1, -1)):
                 if (np.ptp(rows[end], axis=0) < ROUNDING * size).all():
-                    knots[end] += step * POLE * (knots[-1] - knots[0])
+                    knots[end] += step * CERTIFIED_POLE * (knots[-1] - knots[0])
         row = {"formulas": list(formulas), "placement": place.tolist(), "u": u.tolist(), "v": v.tolist()}
         try:
             patch = shapes.patch_of(row)
-            same = np.abs(patch._replace(place=np.eye(3, 4)).points(*at) - points).max() <= FORMULA * size
+            same = np.abs(patch._replace(place=np.eye(3, 4)).points(*at) - points).max() <= CERTIFIED_FORMULA * size
         except (ValueError, SyntaxError):
             return ()
         if not same:
@@ -568,7 +570,7 @@ def _pieces(
         for axis, other in ((0, 1), (1, 0)):
             for pole in _poles(patch, axis):
                 for k in (0, 1):
-                    at = np.abs(ends[:, k, axis] - pole) < _AT_POLE * size[axis]
+                    at = np.abs(ends[:, k, axis] - pole) < MEANT_AT_POLE * size[axis]
                     ends[at, k, other] = ends[at, 1 - k, other]
         rows_of = np.column_stack([names[off.argmin(axis=0) == number], np.zeros(len(chosen)), np.ones(len(chosen))])
         lines = np.stack([page[chosen], page[chosen + 1]], axis=1)
@@ -580,7 +582,7 @@ def _pieces(
             middle, at = 0.5 * (rows_of[bad, 2] + rows_of[bad, 3]), ends[bad].mean(axis=1)
             way = lines[bad, 1] - lines[bad, 0]
             ahead = points_on(rows, patch.points(*at.T))[:, :2] - lines[bad, 0]
-            share = (ahead * way).sum(axis=1) / np.maximum((way * way).sum(axis=1), _TINY)
+            share = (ahead * way).sum(axis=1) / np.maximum((way * way).sum(axis=1), LEAST_DIVISOR)
             # Straight on in u and v where that is below the line, as on parameter lines; else what is below its middle.
             straight = np.hypot(*(ahead - share[:, None] * way).T) < _BESIDE * slack
             straight &= (share > rows_of[bad, 2]) & (share < rows_of[bad, 3])
@@ -620,9 +622,6 @@ _ON_LINE = 1e-2
 _BESIDE = 0.6
 """Curves are so far beside their chords at most, as a part of what is left open."""
 
-_AT_POLE = 1e-6
-"""So near to a pole, as a part of the domain, it is meant."""
-
 
 def _poles(patch: shapes.Patch, axis: int) -> list[float]:
     """The ends of a parameter at which a surface is a point."""
@@ -631,7 +630,7 @@ def _poles(patch: shapes.Patch, axis: int) -> list[float]:
         knots = [patch.u, patch.v]
         knots[axis] = np.full_like(knots[1 - axis], knots[axis][end])
         points = patch.points(*knots)
-        if (np.ptp(points, axis=0) <= _AT_POLE * np.abs(points).max()).all():
+        if (np.ptp(points, axis=0) <= MEANT_AT_POLE * np.abs(points).max()).all():
             found.append(float(knots[axis][0]))
     return found
 
@@ -673,7 +672,7 @@ def _closed(patch: shapes.Patch) -> tuple[bool, bool]:
         (patch.points(patch.u[end] + 0.0 * patch.v, patch.v) for end in (0, -1)),
         (patch.points(patch.u, patch.v[end] + 0.0 * patch.u) for end in (0, -1)),
     )
-    size = FORMULA * float(np.abs(low).max())
+    size = CERTIFIED_FORMULA * float(np.abs(low).max())
     return bool(np.abs(low - high).max() <= size), bool(np.abs(front - back).max() <= size)
 
 
@@ -689,12 +688,12 @@ def _feet(patch: shapes.Patch, points: Floats, rows: Floats) -> tuple[Floats, Fl
     place = _stepped(patch, np.eye(4), place, points, (False, False))
     under = _stepped(patch, rows, place, points_on(rows, points)[:, :2], (False, False))
     off = np.linalg.norm(patch.points(*place.T) - points, axis=1)
-    place = np.where((off > FORMULA * np.abs(points).max(initial=0.0) * 1e3)[:, None], under, place)
+    place = np.where((off > CERTIFIED_FORMULA * np.abs(points).max(initial=0.0) * 1e3)[:, None], under, place)
     return place, np.linalg.norm(patch.points(*place.T) - points, axis=1)
 
 
-_STEPS, DAMPING = 6, 1e-3
-"""Steps of Levenberg and Marquardt's method, and how strongly they are damped."""
+_STEPS = 6
+"""Of Levenberg and Marquardt's method."""
 
 
 def _stepped(
@@ -711,19 +710,16 @@ def _stepped(
         slope = np.stack([shapes.numbers(one.slopes, len(place)) for one in jets], axis=1)
         slope = np.where(np.broadcast_to(held, place.shape)[:, None], 0.0, slope)
         (a, b), c = (slope * slope).sum(axis=1).T, (slope[..., 0] * slope[..., 1]).sum(axis=1)
-        damping = DAMPING * (a + b)
+        damping = CERTIFIED_DAMPING * (a + b)
         a, b = a + damping, b + damping
         p, q = (slope * (target - at)[..., None]).sum(axis=1).T
-        below = np.maximum(a * b - c * c, _TINY)
+        below = np.maximum(a * b - c * c, LEAST_DIVISOR)
         step = np.stack([b * p - c * q, a * q - c * p], axis=1) / below[:, None]
         # On a border only the way along it is free.
         stopped = (place + step < low) | (place + step > high)
-        alone = np.stack([p / np.maximum(a, _TINY), q / np.maximum(b, _TINY)], axis=1)
+        alone = np.stack([p / np.maximum(a, LEAST_DIVISOR), q / np.maximum(b, LEAST_DIVISOR)], axis=1)
         place = np.clip(place + np.where(stopped[:, ::-1], alone, step), low, high)
     return place
-
-
-_TINY = np.finfo(float).tiny
 
 
 _AIM = 0.2

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float64]
 Ints = NDArray[np.intp]
 
-LEAST, ULP, CHUNK = 1e-300, 4.5e-16, 1 << 13
+LEAST, OUTWARD, CHUNK = 1e-300, 4.5e-16, 1 << 13
 """The least divisor; by so much results of rounding are widened; cells that are held at once."""
 MOST_CELLS, LONGEST, DEEPEST = 1 << 18, 4000, 24
 """Cells of a net and of its contours, each, at most; characters of a formula; rounds in which cells are refined."""
@@ -31,7 +31,7 @@ class Range:
     __slots__ = ("high", "low")
 
     def __init__(self, low: Any, high: Any) -> None:
-        low, high = low - ULP * np.abs(low) - LEAST, high + ULP * np.abs(high) + LEAST
+        low, high = low - OUTWARD * np.abs(low) - LEAST, high + OUTWARD * np.abs(high) + LEAST
         self.low, self.high = np.where(np.isnan(low), -np.inf, low), np.where(np.isnan(high), np.inf, high)
 
     def __add__(self, other: Range) -> Range:
@@ -65,7 +65,7 @@ class Range:
         ends = [(np.sin, np.cos)[quarters % 2](end) * (1.0, 1.0, -1.0, -1.0)[quarters] for end in (self.low, self.high)]
         turns = [(end + 0.5 * np.pi * quarters) / (2.0 * np.pi) for end in (self.low - 1e-9, self.high + 1e-9)]
         least, most = (np.floor(turns[1] - part) >= np.ceil(turns[0] - part) for part in (0.75, 0.25))
-        low, high = np.minimum(*ends) - ULP, np.maximum(*ends) + ULP
+        low, high = np.minimum(*ends) - OUTWARD, np.maximum(*ends) + OUTWARD
         return Range(np.where(least, -1.0, low), np.where(most, 1.0, high))
 
     @property
