@@ -8,7 +8,7 @@ import pytest
 from click.testing import CliRunner
 
 import vectorplot as vp
-from vectorplot.cli.commands.draw import draw
+from vectorplot.cli.commands.draw import draw, hatching_from
 from vectorplot.cli.commands.paint import paint
 from vectorplot.cli.commands.render import render
 from vectorplot.cli.option_values import at_least
@@ -21,7 +21,6 @@ from vectorplot.cli.options import (
     PageOptions,
     Told,
     crease_angle_option,
-    hatching_from,
     lines_option,
     picture_verb,
 )
