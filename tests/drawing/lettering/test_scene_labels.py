@@ -159,7 +159,8 @@ def test_paint_and_render_show_the_same_labels(asked: str) -> None:
     assert len(drawn) == len(painted)
     size = (200, 160)
     one, other = (
-        vp.render(scene, size=size, lines=asked, fit=False).pixels for scene in (labelled(), replace(labelled(), labels=()))
+        vp.render(scene, size=size, lines=asked, fit=False).pixels
+        for scene in (labelled(), replace(labelled(), labels=()))
     )
     changed = (one != other).any(axis=2).sum()
     assert 50 < changed < 4000
