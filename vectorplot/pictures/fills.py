@@ -120,10 +120,7 @@ def fineness(
         from vectorplot.effects.glass import items_in_glass
 
         in_glass = items_in_glass(shown, projection)
-    in_bands = None
-    if pipeline.calls_for("surface bands"):
-        in_bands = np.array([may_have_bands(item) for item in shown.items], dtype=np.bool_)
-    return picture_fineness(shown, projection, casts, allowed, tolerance_mm, in_glass, in_bands)
+    return picture_fineness(shown, projection, casts, allowed, tolerance_mm, in_glass)
 
 
 def off_surfaces(seen: VisiblePolygons, tolerance_mm: float) -> Floats:

@@ -462,9 +462,6 @@ sight rays: apart from outlines, borders and other items; fewer where borders of
 DEEPEST_MM, LEAST_DEEP = 1.0, 5.0
 """They are never farther off than this on the page, or so many tolerances: coarse nets take many cuts at outlines."""
 
-DEEP_IN_BANDS = 8.0
-"""And of surfaces that are painted in bands, on which borders of shadows run on from facet to facet."""
-
 STEEP, FLATTEST = 0.2, 0.35
 """Where sight rays come in with a smaller cosine than this, triangles may be off by less, in proportion, down to this
 part: along such rays the same gap leads to places farther away, which have other shades."""
@@ -652,11 +649,10 @@ def picture_fineness(
     allowed: Allowed,
     tolerance_mm: float,
     in_glass: Bools | None = None,
-    in_bands: Bools | None = None,
 ) -> Callable[[int], PictureFineness]:
     """What a picture of the scene asks of the triangles of its items, by their numbers. casts: whether its lights throw
     shadows; allowed: how far triangles may be off outlines, so that it is tolerance_mm on the page; in_glass (i,): the
-    items that are seen with their outlines elsewhere, too; in_bands (i,): those that are painted in bands of shade."""
+    items that are seen with their outlines elsewhere, too."""
     reached = Mesh(box_corners(scene.bounds), np.zeros(0, dtype=np.intp), np.zeros(1, dtype=np.intp))
     view = view_of(Scene((Item("box", reached),)), projection)
     lights = view_lights(view, scene.lights)
@@ -690,9 +686,7 @@ def picture_fineness(
         # Light goes through what is transparent: shadows fall on patterns only.
         dark = casts and (item.material.opacity >= 1.0 or bool(item.patterns))
         fine = (in_glass is not None and in_glass[number]) or len(doubles[number]) > MOST_DOUBLES
-        banded = in_bands is not None and in_bands[number]
-        in_light = DEEP_IN_BANDS if banded else DEEP_IN_LIGHT
-        deep = np.array([1.0 if fine else min(in_light if dark else DEEP, most)])
+        deep = np.array([1.0 if fine else min(DEEP_IN_LIGHT if dark else DEEP, most)])
         error, seen_from = shade_error(tolerance_mm), () if fine else doubles[number]
         return PictureFineness(view, (item,), lights, casts, deep, (near,), allowed, error, seen_from)
 
