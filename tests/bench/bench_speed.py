@@ -22,7 +22,7 @@ LIMITS = {
     "hatched mesh": (1.15, 130, 400, 0.1),
     "spheres": (1.2, 1800, 200, 1.2),
     "tori": (2.0, 4e6, 200, 1),
-    "boxes in colour": (1.2, 2000, 100, 0.7),
+    "boxes in colour": (1.2, 4000, 100, 0.7),
     "balls in colour": (1.15, 120000, 300, 16),
     "molecule in colour": (1.15, 110000, 400, 22),
     "tori in colour": (1.15, 1e7, 500, 28),
