@@ -8,13 +8,15 @@ import numpy as np
 import pytest
 import shapely
 from support.body_colours import assert_shown
-from support.top_fills import fills_of, region_of, top_at
+from support.top_fills import fills_of, top_at
 
 import vectorplot as vp
+from vectorplot.accuracy.of_surfaces import covered
 from vectorplot.drawing.drawing import Drawing
 from vectorplot.drawing.fills import FillKind
 from vectorplot.scene.placement import default_camera
 from vectorplot.shading import shade_bands
+from vectorplot.shading.shade_bands import ROUNDED_MM
 from vectorplot.surfaces import Capped, Ellipsoid, Frustum, Sphere, rod
 
 CENTRAL, PARALLEL = vp.Camera((10, -8, 6)), vp.Camera((10, -8, 6), parallel=True)
@@ -22,9 +24,6 @@ LAMPS = (vp.Light((5, -6, 7)), vp.Light((-1, -1, 1), parallel=True), vp.Light((3
 COLOURS = ("gray", "blue", "red", "green", "yellow", "cyan")
 ROUND = (Sphere(1.0, (3, 0, 0)), Ellipsoid((1, 2, 0.5)), rod((0, 0, 1), (1, 2, 3), 0.3))
 FRUSTUM = Capped(Frustum(1.0, 0.4, 2.0, (0, 5, 0)))
-
-SPECK_MM2 = 0.01
-"""As much may be missing: rings that lead to holes and back do not lie on each other exactly."""
 
 BESIDE_MM = 0.06
 """Nearer than this to the outline of a body, or the border of a shadow, the one or the other may be painted."""
@@ -103,10 +102,12 @@ def test_bodies_that_pierce_each_other_are_seen_as_rays_see_them(made, seed, lig
 @pytest.mark.parametrize("width", [30, 100, 200])
 def test_nothing_shines_through_between_bands(word, width):
     drawing = vp.paint(scene_of(Sphere(2.0), word=word, lights=LAMPS[:1]), CENTRAL, width=width)
-    parts = shapely.get_parts(region_of(fills_of(drawing)))
+    fills = fills_of(drawing)
+    parts = shapely.get_parts(covered(fills.points, fills.offsets))
     body = parts[shapely.area(parts).argmax()]
-    assert shapely.area(parts).sum() - shapely.area(body) < SPECK_MM2
-    assert shapely.area(shapely.Polygon(body.exterior)) - body.area < SPECK_MM2
+    # Rounded corners may leave slits, but nothing apart from the body.
+    assert body.buffer(ROUNDED_MM).covers(shapely.union_all(parts))
+    assert shapely.area(shapely.Polygon(body.exterior)) - body.area < 1e-3
 
 
 @pytest.mark.parametrize("factor", [1e-6, 1e6])

@@ -8,9 +8,10 @@ import numpy as np
 import pytest
 import shapely
 from support.body_colours import assert_shown
-from support.top_fills import colours_at, fills_of, region_of, top_at
+from support.top_fills import colours_at, fills_of, top_at
 
 import vectorplot as vp
+from vectorplot.accuracy.of_surfaces import covered
 from vectorplot.drawing.fills import FillKind
 from vectorplot.geometry import box as box_at_origin
 from vectorplot.geometry import ragged
@@ -84,7 +85,7 @@ def test_bodies_that_pierce_others_are_seen_as_rays_see_them(name, lights, camer
     scene = scene_of(*PIERCED[name], lights=lights, floor=True)
     drawing = vp.paint(scene, CAMERAS[camera])
     fills = fills_of(drawing)
-    assert (fills.kind == FillKind.BAND).any()
+    assert not scene.lights or (fills.kind == FillKind.BAND).any()
     bodies = np.array([not isinstance(item.shape, vp.Mesh) for item in scene.items])
     assert_shown(
         scene,
@@ -126,9 +127,9 @@ def test_bands_show_what_triangles_with_gradients_show(shapes, lights):
 @pytest.mark.parametrize("shapes", [(Torus(1.5, 0.5),), rings(4)], ids=["torus", "heap"])
 def test_nothing_shines_through_between_bands(shapes):
     fills = fills_of(vp.paint(scene_of(*shapes, lights=LAMPS[:1]), CAMERAS["central"]))
-    seen = shapely.get_parts(region_of(fills))
+    seen = shapely.get_parts(covered(fills.points, fills.offsets))
     holes = np.concatenate([[shapely.Polygon(ring).area for ring in part.interiors] for part in seen])
-    assert not ((holes > 1e-2) & (holes < 1.0)).any()
+    assert not ((holes > 4e-3) & (holes < 1.0)).any()
 
 
 def test_black_has_one_shade():

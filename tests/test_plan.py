@@ -79,7 +79,7 @@ CALLS = [
     (Scene((CUBE, GLASS), (SUN,)), {"shadows": "none"}, with_sheets("refraction")),
     (Scene((CUBE, BALL)), {}, ["bodies", *PLAIN, "bands"]),
     (Scene((CUBE, RING)), {}, ["facets", *PLAIN[:3], "unseen facets", "layers", *PLAIN[3:]]),
-    (Scene((RING,)), {}, ["facets", *PLAIN[:3], "unseen facets", "layers", *PLAIN[3:], "surface bands"]),
+    (Scene((RING,)), {}, ["facets", *PLAIN[:3], "unseen facets", "layers", *PLAIN[3:]]),
     (Scene((BAND,)), {}, [*PLAIN[:3], "unseen facets", *PLAIN[3:]]),
     (Scene((CUBE,)), {"fills": "visible"}, [*PLAIN, "visible fills"]),
     (Scene((CUBE,)), {"lines": ("crease",)}, [*PLAIN, "lines"]),

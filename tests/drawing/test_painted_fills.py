@@ -73,10 +73,7 @@ def test_points_in_space_have_their_places_on_the_page(parallel: bool) -> None:
     drawing = vp.paint(scene, camera, page=vp.Page(60, 40, 2), tolerance_mm=2.0)
     fills = drawing.layers[0].fills[0]
     image = np.c_[fills.points3d, np.ones(len(fills.points3d))] @ drawing.page_from_world.T
-    # Corners of bands are rounded on the page, to hundredths of a mm.
-    off = np.abs(image[:, :2] / image[:, 3:] - fills.points).max(axis=1)
-    band = np.repeat(fills.kind == FillKind.BAND, np.diff(fills.offsets))
-    assert off[band].max() < 0.00501 and off[~band].max() < 1e-9
+    assert np.abs(image[:, :2] / image[:, 3:] - fills.points).max() < 1e-9
 
 
 @pytest.mark.parametrize("parallel", [False, True])
@@ -110,10 +107,8 @@ def test_erasing_leaves_blank_faces_and_their_edges() -> None:
 
 
 @pytest.mark.slow
-def test_smooth_surfaces_beside_glass_are_shaded_from_corner_to_corner_or_flat() -> None:
+def test_smooth_surfaces_are_shaded_from_corner_to_corner_or_flat() -> None:
     scene = vp.read(DATA / "torus.scene")
-    pane = vp.Item("PANE", box((-9.0, -9.0, -9.0), (-8.0, -8.0, -8.0)), material=vp.Material(opacity=0.5))
-    scene = replace(scene, items=(*scene.items, pane))
     for smooth in (True, False):
         fills = vp.paint(scene, smooth=smooth, tolerance_mm=0.5).layers[0].fills[0]
         first = np.repeat(fills.colours[fills.offsets[:-1]], np.diff(fills.offsets), axis=0)
@@ -123,9 +118,8 @@ def test_smooth_surfaces_beside_glass_are_shaded_from_corner_to_corner_or_flat()
 @pytest.mark.slow
 def test_the_tolerance_decides_how_many_facets_there_are() -> None:
     scene = vp.read(DATA / "torus.scene")
-    fine = [vp.paint(scene, tolerance_mm=tolerance).layers[0].fills[0] for tolerance in (0.5, 0.05)]
-    counts = [len(fills.points) for fills in fine]
-    assert 1.1 < counts[1] / counts[0] < 20
+    counts = [len(vp.paint(scene, tolerance_mm=tolerance).layers[0].fills[0]) for tolerance in (0.5, 0.05)]
+    assert 1.3 < counts[1] / counts[0] < 20
 
 
 @pytest.mark.slow

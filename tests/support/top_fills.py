@@ -8,8 +8,6 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.drawing import Drawing
 from vectorplot.drawing.fills import Fills
 
-GRID_MM = 1e-4
-
 
 def fills_of(drawing: Drawing) -> Fills:
     """All fills of a drawing, back to front."""
@@ -95,13 +93,3 @@ def assert_same_picture(one: Drawing, two: Drawing, levels: float = 1.5, apart: 
     different = np.abs(seen[0] - seen[1]).max(axis=1) > levels
     assert different.sum() <= apart, f"{different.sum()} places of {len(places)} differ, as {places[different][:3]}"
     assert (seen[0] < 250.0).any(axis=1).mean() > 0.02, "the pages show something"
-
-
-def region_of(fills: Fills):
-    """What polygons cover together, as a polygon of shapely or several; rings may lead to their holes and back."""
-    import shapely
-
-    rings = shapely.linearrings(fills.points, indices=np.repeat(np.arange(len(fills)), np.diff(fills.offsets)))
-    parts = shapely.get_parts(shapely.make_valid(shapely.polygons(rings)))
-    parts = parts[shapely.get_dimensions(parts) == 2]
-    return shapely.union_all(shapely.set_precision(parts, GRID_MM), grid_size=GRID_MM)

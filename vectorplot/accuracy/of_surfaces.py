@@ -3,25 +3,30 @@
 from __future__ import annotations
 
 from functools import partial
+from typing import Any
 
 import numpy as np
 
 from vectorplot.accuracy.approximation import Approximation, Study, Way, on_page, page_from_world
 from vectorplot.accuracy.of_light import pixels_of, wrong_share
-from vectorplot.arrays import Floats
+from vectorplot.arrays import Floats, Ints
 from vectorplot.drawing.drawing import Drawing
+from vectorplot.drawing.fills import Fills
 from vectorplot.features.contours_and_isophotes import contour
 from vectorplot.features.curve_tracing import Tracing
 from vectorplot.features.grid_triangulation import mesh_of_grid
 from vectorplot.features.mesh_lines import mesh_contour_across_faces
 from vectorplot.features.polygonization import polygonized
 from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.regions import polygons_of
 from vectorplot.geometry.vectors import dot
 from vectorplot.geometry.winding import edge_uses
 from vectorplot.pictures.paint import paint
 from vectorplot.scene.item import Item
 from vectorplot.scene.scene import Scene
+from vectorplot.shading.shade_bands import ROUNDED_MM
 from vectorplot.surfaces.tori import ImplicitTorus, Torus
 from vectorplot.testing.curves import hausdorff
 from vectorplot.tolerances import CONTOUR_ACCURACY_MM, OUTLINE_ACCURACY_MM, TRUE_CONTOUR
@@ -114,13 +119,41 @@ def polygons(drawing: Drawing) -> int:
     return sum(len(mark) for layer in drawing.layers for mark in layer.fills)
 
 
-def outlines(drawing: Drawing) -> list[Floats]:
-    """The borders (n,2) of all that polygons cover."""
-    from shapely import Polygon, get_parts, make_valid, polygons, union_all
+HALF_SLIT_MM = ROUNDED_MM / 2.0
 
-    rings = [np.split(mark.points, mark.offsets[1:-1]) for layer in drawing.layers for mark in layer.fills]
-    whole = union_all(make_valid([Polygon(ring) for part in rings for ring in part if len(ring) > 2]))
-    parts = [part for part in get_parts(whole) if part.area > SPECK_MM2]
+
+def covered(points: Floats, offsets: Ints) -> Any:
+    """What polygons (n,2) cover where they are painted, wherever their rings wind around: an area of shapely. Rings may
+    lead to holes and back, and lie on themselves."""
+    import shapely
+
+    parts = polygons_of(points.T, offsets)
+    wound = np.flatnonzero(~shapely.is_valid(parts))
+    loops = shapely.node(shapely.get_exterior_ring(parts[wound]))
+    faces, of = shapely.get_parts(shapely.polygonize(loops[:, None]), return_index=True)
+    middles = shapely.get_coordinates(shapely.point_on_surface(faces))
+    rings = (points[offsets[k] : offsets[k + 1]] for k in wound.tolist())
+    around = [_winding(ring, middles[of == k]) for k, ring in enumerate(rings)]
+    full = np.concatenate([np.zeros(0), *around]) != 0.0
+    return shapely.union_all(np.concatenate([np.delete(parts, wound), faces[full]]))
+
+
+def _winding(ring: Floats, places: Floats) -> Floats:
+    """(m,) how often a ring (n,2) winds around places (m,2)."""
+    way = ring[None] - places[:, None]
+    after = np.roll(way, -1, axis=1)
+    turn = arctan2(way[..., 0] * after[..., 1] - way[..., 1] * after[..., 0], (way * after).sum(axis=2))
+    return np.asarray(np.rint(turn.sum(axis=1) / (2.0 * np.pi)))
+
+
+def outlines(drawing: Drawing) -> list[Floats]:
+    """The borders (n,2) of all that polygons cover. Slits no wider than corners of bands are rounded are no borders."""
+    from shapely import get_parts, polygons
+
+    fills = Fills.joined(*(mark for layer in drawing.layers for mark in layer.fills))
+    fills = fills.take(np.flatnonzero(np.diff(fills.offsets) > 2))
+    whole = covered(fills.points, fills.offsets).buffer(HALF_SLIT_MM, join_style="mitre")
+    parts = [part for part in get_parts(whole.buffer(-HALF_SLIT_MM, join_style="mitre")) if part.area > SPECK_MM2]
     holes = [hole.coords for part in parts for hole in part.interiors if polygons(hole).area > SPECK_MM2]
     return [np.asarray(line) for line in (*(part.exterior.coords for part in parts), *holes)]
 

@@ -31,7 +31,7 @@ from vectorplot.backends.page import (
 from vectorplot.backends.raster import smoothly_painted
 from vectorplot.backends.shaded_triangles import Underlaps, grown, underlaps
 from vectorplot.drawing.drawing import Drawing, Layer, Pen
-from vectorplot.drawing.fills import SEAM_MM, Fills
+from vectorplot.drawing.fills import SEAM_MM, FillKind, Fills
 from vectorplot.drawing.sheets import Mark, moved_mark
 from vectorplot.drawing.texts import is_font_file
 from vectorplot.errors import InputError, not_installed
@@ -604,14 +604,21 @@ MOST_SAMPLES, FINEST = 1 << 26, 4
 
 
 def _shaded_layers(drawing: Drawing) -> int:
-    """How many of the first layers consist of opaque polygons, shaded ones among them; 0 where there are none."""
+    """How many of the first layers consist of opaque polygons, shaded ones or bands of shade among them; 0 where there
+    are none."""
     found, count = False, 0
     for layer in drawing.layers:
         if not layer.marks or not all(map(_is_opaque, layer.marks)):
             break
         count += 1
-        found |= any(shaded(mark.colours, mark.offsets).any() for mark in layer.marks if isinstance(mark, Fills))
+        found |= any(map(_is_finely_shaded, layer.marks))
     return count if found else 0
+
+
+def _is_finely_shaded(mark: Mark) -> bool:
+    """Whether there are shaded polygons, or bands of shade, of which some may be narrower than a pixel."""
+    own = isinstance(mark, Fills) and (mark.kind == FillKind.BAND).any()
+    return isinstance(mark, Fills) and bool(own or shaded(mark.colours, mark.offsets).any())
 
 
 def _is_opaque(mark: Mark) -> bool:

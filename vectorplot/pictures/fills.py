@@ -167,6 +167,13 @@ STEPS = 255.0
 """Of a colour, from its darkest to its brightest shade."""
 
 
+CORNER_BYTES, GRADIENT_BYTES = 12, 145
+"""What a corner of a band takes in SVG, and a triangle with a gradient."""
+
+WORTH_BANDS = 1.2
+"""Bands have steps, and are larger in PDF and PostScript: they are to be smaller by such a factor in SVG."""
+
+
 def shade_error_steps(seen: VisiblePolygons, lighting: Lighting) -> float | None:
     """By how many of 255 steps the linear shading of polygons is off the light that the surface has where it is seen,
     in the middles of their sides, at most; None where all polygons have one shade each.
@@ -301,7 +308,7 @@ def coloured(
     one polygon where they follow each other (None: those of one plane)."""
     split = None
     if cast is None and pipeline.calls_for("surface bands"):
-        split = pipeline.run("layers", _layers, seen, lighting)
+        split = pipeline.run("layers", _layers, seen, lighting, tolerance_mm)
     rest = seen if split is None else replace(seen, faces=seen.faces.take(np.flatnonzero(~split.banded)))
     shades = pipeline.run("shades", shades_of_faces, rest, lighting).total
     pipeline.measured("shades", "of 255", shade_error_steps, seen, lighting)
@@ -354,9 +361,12 @@ class _Split:
         return found
 
 
-def _layers(seen: VisiblePolygons, lighting: Lighting) -> _Split | None:
-    """The layers of what is seen, and what of it may be painted in bands of equal shade; None where nothing may, or too
-    much lies on one another."""
+def _layers(seen: VisiblePolygons, lighting: Lighting, tolerance_mm: float) -> _Split | None:
+    """The layers of what is seen, and what of it may be painted in bands of equal shade; None where nothing may,
+    where too much lies on one another, and where bands would not make a clearly smaller file than gradients do."""
+    from vectorplot.effects.decals import no_decals
+    from vectorplot.pictures.banded_surfaces import banded_surfaces
+
     view, faces = seen.view, seen.faces
     banded = seen.smooth[view.face_item] & smooth_faces(view, lighting.normals)
     banded = (banded & np.array([may_have_bands(item) for item in seen.scene.items])[view.shown_item])[faces.source]
@@ -366,7 +376,15 @@ def _layers(seen: VisiblePolygons, lighting: Lighting) -> _Split | None:
     new = np.append(True, banded[1:] | (plane[1:] != plane[:-1]))[: len(plane)]
     unit = np.cumsum(new) - 1
     layer = picture_layers(faces, unit, view.tolerance)
-    return None if layer is None else _Split(banded, layer, unit)
+    if layer is None:
+        return None
+    mine = np.flatnonzero(banded)
+    unshadowed, _ = banded_surfaces(
+        view, lighting, faces.take(mine), layer[mine], no_decals(), seen.placement, tolerance_mm
+    )
+    corners = len(unshadowed.fills.points)
+    smaller = WORTH_BANDS * CORNER_BYTES * corners < GRADIENT_BYTES * len(mine)
+    return _Split(banded, layer, unit) if smaller else None
 
 
 def _decals(

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Protocol
+from typing import ClassVar, Protocol
 
 import numpy as np
 
@@ -53,6 +53,10 @@ class FacetPlaces:
         return np.stack(place[:3]), normals / np.maximum(np.sqrt(dot(normals, normals)), LEAST_DIVISOR)
 
 
+ROUNDED_MM = 0.01
+"""Corners are written in these units: less than half of it is not seen, and more would double the files."""
+
+
 @dataclass(frozen=True, eq=False)
 class ShadedPlaces:
     """Places on charts, the items (n,) that these show, and how bright they are: view, items and lights as in
@@ -67,6 +71,8 @@ class ShadedPlaces:
     placement: Placement
     steps: Floats
     loose_mm: Floats
+    rounded_mm: ClassVar[float] = 0.001
+    """Corners are rounded to so much on the page: where layers of facets meet, gaps are no wider."""
 
     def __len__(self) -> int:
         return len(self.item)
@@ -116,6 +122,7 @@ class ShadedCharts(ShadedPlaces):
     light does not get; cover: by what convex thing points (3,m) of charts (m,) are well hidden, -1 where by none.
     """
 
+    rounded_mm: ClassVar[float] = ROUNDED_MM
     charts: Charts
     grain: Floats
     cuts: Sequence[Margin] = ()
@@ -496,9 +503,6 @@ THINNED, THINNED_UNDER = 0.3, 0.45
 """Corners of isophotes that are no farther off the line between their neighbours than this part of the width of the
 band are left out, where bands begin, and where they end under the next ones."""
 
-ROUNDED_MM = 0.01
-"""Corners are written in these units: less than half of it is not seen, and more would double the files."""
-
 SPECK_MM = 0.04
 """Polygons that are no larger than the square of this are left out: there one sees the band before."""
 
@@ -708,7 +712,7 @@ class _Marching:
         points, position = self._points(), start[order]
         of_coat = position >= points.shape[1]
         position[of_coat] = self._coat[1][position[of_coat] - points.shape[1]]
-        page = np.rint(self.shaded.on_page(points) / ROUNDED_MM) * ROUNDED_MM
+        page = np.rint(self.shaded.on_page(points) / self.shaded.rounded_mm) * self.shaded.rounded_mm
         under = (kind[order] == 2) & (kind[order][ragged.preceding(offsets)] == 2)
         strict, loose = self._allowed(page)
         keep = _thinned(page[:, position], offsets, np.where(under, loose[position], strict[position]))
@@ -787,8 +791,7 @@ class _Marching:
 
     def _allowed(self, page: Floats) -> tuple[Floats, Floats]:
         """(k,) how far corners (2,k) may be beside the lines that are drawn without them where bands begin, and where
-        they end under the next ones. On borders all bands have the same corners, and keep them but for what rounding
-        does to them."""
+        they end under the next ones. On borders all bands have the same corners, and keep them."""
         one, other, number = self.sides
         side = self.crossings[0]
         inner = np.bincount(number.ravel(), minlength=len(one))[side] > 1
@@ -796,9 +799,8 @@ class _Marching:
         covered = self.mesh.covered
         hidden = covered[one[side]] & covered[other[side]]
         wide = self._band_widths(page)[side]
-        least = 0.5 * ROUNDED_MM
-        nodes, ends = np.where(covered, UNSEEN_MM, least), (np.minimum(loose, THINNED * wide), THINNED_UNDER * wide)
-        begin, end = (np.where(hidden, UNSEEN_MM, np.where(inner, one, least)) for one in ends)
+        nodes, ends = np.where(covered, UNSEEN_MM, 0.0), (np.minimum(loose, THINNED * wide), THINNED_UNDER * wide)
+        begin, end = (np.where(hidden, UNSEEN_MM, np.where(inner, one, 0.0)) for one in ends)
         return np.concatenate([nodes, begin]), np.concatenate([nodes, end])
 
     def _band_widths(self, page: Floats) -> Floats:
