@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import vectorplot as vp
+from vectorplot.cli.main import run
 from vectorplot.errors import InputError
 from vectorplot.io import parse_scene
 from vectorplot.scene import Colouring
@@ -127,3 +128,11 @@ def test_what_is_wrong_with_named_heights_is_told(text: str, told: str, tmp_path
         vp.read(scene)
     with pytest.raises(InputError, match="names no files"):
         parse_scene('HILL green terrain "hill.asc"')
+
+
+def test_what_is_no_file_of_vtk_is_said_in_one_line(tmp_path, capfd):
+    pytest.importorskip("meshio")
+    (tmp_path / "bad.vtk").write_text("hello")
+    assert run(["draw", str(tmp_path / "bad.vtk"), "-o", str(tmp_path / "x.svg")]) == 1
+    assert len(capfd.readouterr().err.splitlines()) == 1
+    assert not (tmp_path / "x.svg").exists()

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import io
 import warnings
 from collections.abc import Iterable, Mapping
+from contextlib import redirect_stderr, redirect_stdout
 from pathlib import Path
 from typing import Any
 
@@ -131,12 +133,15 @@ def read_cells(path: Path) -> MeshFile:
     except ImportError:
         raise not_installed("a file of VTK", "meshio", "vtk") from None
     try:
-        with warnings.catch_warnings(action="ignore"):
+        # It prints what it cannot read, before it ends.
+        aside = io.StringIO()
+        with warnings.catch_warnings(action="ignore"), redirect_stdout(aside), redirect_stderr(aside):
             found = meshio.read(path)
         points, cells = np.asarray(found.points), found.cells
     except (Exception, SystemExit) as error:
         # Whatever is wrong with a file, meshio says it in exceptions of all kinds, or ends the program.
-        said = printable(str(error))[:200] or type(error).__name__
+        why = "it is no such file, or a damaged one" if isinstance(error, SystemExit) else str(error)
+        said = printable(why)[:200] or type(error).__name__
         raise InputError(f"meshio cannot read it: {said}", file=shown(path)) from None
     if not np.isfinite(points).all():
         raise InputError("a point that is not finite", file=shown(path))
