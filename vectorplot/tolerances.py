@@ -1003,6 +1003,9 @@ SHADOW_CORNER_MM = 1e-4
 """Corners of shadows on neighbouring facets are one if they are in one cell of this size on the page: a hundredth of
 what is written. They differ by a few tolerances of the view, thousands of times less."""
 
+FACET_CORNER_MM = 1e-3
+"""Corners of bands on facets are rounded to so much on the page: where layers of facets meet, gaps are no wider."""
+
 SAME_AREA = 1e-9
 """Shadows cover a facet if their areas add up to its own but for such a part: rounding leaves a thousandth of it, and
 such as overlap, or leave some of the facet free, differ by more."""

@@ -24,7 +24,7 @@ from vectorplot.shading.facet_resolution import PARTS, SHADE_ERROR, shade_error
 from vectorplot.shading.illumination import finish_of, homogeneous_light, shadow_shades, towards
 from vectorplot.shading.palettes import COLOUR_MAP
 from vectorplot.shading.shaded_faces import Shades, item_colours, point_shades, view_eye
-from vectorplot.tolerances import LEAST_DIVISOR, ROUNDING
+from vectorplot.tolerances import FACET_CORNER_MM, LEAST_DIVISOR, ROUNDING
 from vectorplot.visibility.quadrics.visible_parts import CAP, MANTLE, Charts
 
 # How bright places on charts are, and where what is seen of these, or is in the light, ends.
@@ -71,8 +71,7 @@ class ShadedPlaces:
     placement: Placement
     steps: Floats
     loose_mm: Floats
-    rounded_mm: ClassVar[float] = 0.001
-    """Corners are rounded to so much on the page: where layers of facets meet, gaps are no wider."""
+    rounded_mm: ClassVar[float] = FACET_CORNER_MM
 
     def __len__(self) -> int:
         return len(self.item)
