@@ -189,13 +189,13 @@ def test_wireframes_have_no_certificate():
         certificate(box((2, 2, 2)), vp.draw(box((2, 2, 2)), style="wireframe"), style="wireframe")
 
 
-@pytest.mark.parametrize("name", ["check_certificate", "certified_image", "certified_surfaces"])
+@pytest.mark.parametrize("name", ["check_certificate", "certified_drawing", "certified_image", "certified_surfaces"])
 def test_the_checker_is_short_and_knows_nothing_of_the_package(name):
     source = CHECKER.with_name(f"{name}.py").read_text("utf-8")
     assert len(source.splitlines()) <= 400
     imports = [node for node in ast.walk(ast.parse(source)) if isinstance(node, ast.Import | ast.ImportFrom)]
     names = {(getattr(node, "module", None) or node.names[0].name).split(".")[0] for node in imports}
-    assert names <= sys.stdlib_module_names | {"numpy", "certified_image", "certified_surfaces"}
+    assert names <= sys.stdlib_module_names | {"numpy", "certified_drawing", "certified_image", "certified_surfaces"}
 
 
 @pytest.mark.slow

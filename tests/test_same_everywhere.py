@@ -26,7 +26,8 @@ OF_COMPLEX = {"geometry/elementary.py", "surfaces/minimal.py", "io/expressions.p
 
 REPORTS = {
     *("speed/results.py", "accuracy/results.py", "accuracy/of_visibility.py"),
-    *("testing/check_certificate.py", "testing/certified_image.py", "testing/certified_surfaces.py"),
+    *("testing/check_certificate.py", "testing/certified_drawing.py"),
+    *("testing/certified_image.py", "testing/certified_surfaces.py"),
 }
 """Files that measure times and errors, not pictures; and the checker of certificates, which imports nothing of ours and
 leaves angles within a thousandth of a degree open."""

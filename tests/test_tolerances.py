@@ -27,7 +27,9 @@ OTHERWISE = re.compile(r"\*\*[\s(]*-|\b(?:eps|epsneg|tiny|smallest_normal)\b")
 BINDING = re.compile(r"^\w.*=|^[\[(][^=]*=", re.MULTILINE)
 """What stands left of a sign of equality in no function or class: names that a module may give a meaning."""
 
-CHECKER = {f"testing/{name}.py" for name in ("check_certificate", "certified_image", "certified_surfaces")}
+CHECKER = {
+    f"testing/{name}.py" for name in ("check_certificate", "certified_drawing", "certified_image", "certified_surfaces")
+}
 SHAPES = {"testing/shapes.py", *CHECKER}
 """Shapes that tests are made with may be as thin as they like; the checker of certificates imports nothing of ours."""
 

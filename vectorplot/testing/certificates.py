@@ -27,10 +27,11 @@ from vectorplot.io.anything import scene_of
 from vectorplot.io.shape_arguments import Formulas
 from vectorplot.pictures.options import check_look
 from vectorplot.pictures.prepared_scene import Paper, prepared_scene
-from vectorplot.scene.added_lines import with_default_lines
+from vectorplot.scene.added_lines import curve_light, with_default_lines
 from vectorplot.scene.item import Item
 from vectorplot.scene.page import Page
 from vectorplot.scene.placement import page_of
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View, look
 from vectorplot.surfaces.capped_bodies import Capped, CappedPart, Frustum
 from vectorplot.surfaces.function_surface import FunctionSurface
@@ -52,6 +53,7 @@ from vectorplot.surfaces.quadrics import (
 from vectorplot.surfaces.surface import Surface
 from vectorplot.surfaces.swept import Rotoid, Screw, SpiralMotion, Swept, Translation
 from vectorplot.surfaces.tori import Torus
+from vectorplot.testing import certified_drawing as drawn
 from vectorplot.testing import certified_image as image
 from vectorplot.testing import certified_surfaces as shapes
 from vectorplot.testing import check_certificate as checker
@@ -259,6 +261,7 @@ def certificate(
                 "hides": bool(view.occludes[number]),
                 "smooth": not isinstance(item.shape, Mesh),
                 **_conditions(item, parts[number]),
+                "isophotes": _lights(prepared.scene, view, item) if parts[number] else [],
                 "surfaces": nets[number],
                 "lines": [] if partial else _complete(item, kinds),
                 "vertices": plain(world[first[number] : first[number + 1]]),
@@ -267,10 +270,10 @@ def certificate(
             for number, item in enumerate(items)
         ],
     }
-    content["on_surfaces"] = _on_surfaces(found["strokes"], parts, content["items"], rows, smooth_mm)
-    strange = {stroke["kind"] for stroke in found["strokes"]} - {"edges", *checker.EDGE_KINDS, *checker.FACE_KINDS}
+    strange = {stroke["kind"] for stroke in found["strokes"]} - {"edges", *drawn.EDGE_KINDS, *drawn.FACE_KINDS}
     said = [*content["not_certified"], *(f"strokes of the kind {kind}" for kind in sorted(strange))]
-    return Certificate({**content, **_claims(checker.model_of(found, content))}, tuple(said))
+    shapes = drawn.shapes_of(content)
+    return Certificate({**content, **strokes_claimed(found, content, shapes), **_lines_claimed(shapes)}, tuple(said))
 
 
 def _triangles(view: View) -> tuple[Ints, Ints]:
@@ -293,7 +296,7 @@ def _broken(drawing: Drawing) -> str:
 
 def _complete(item: Item, kinds: frozenset[LineKind]) -> list[str]:
     """The kinds of lines of which all on an item are drawn."""
-    own = {kind.word for kind in kinds_of(item, kinds)} & {*checker.EDGE_KINDS}
+    own = {kind.word for kind in kinds_of(item, kinds)} & {*drawn.EDGE_KINDS}
     if item.drawn_edges is not None or item.cut_by or item.is_cut_face or LineKind.GHOST in kinds_of(item, kinds):
         return []
     return sorted(own - {"contour"} if item.curves.smooth_contours else own)
@@ -305,7 +308,7 @@ def _not_certified(item: Item, kinds: frozenset[LineKind], surfaces: tuple[_Surf
         return []
     if not isinstance(item.shape, Mesh) and not surfaces:
         return [f"what {item.name} shows and hides, which is a smooth shape without formulas, or too large"]
-    left = {kind.word for kind in kinds_of(item, kinds)} & {*checker.EDGE_KINDS} - {*_complete(item, kinds)}
+    left = {kind.word for kind in kinds_of(item, kinds)} & {*drawn.EDGE_KINDS} - {*_complete(item, kinds)}
     there = surfaces or item.mesh.face_count
     return [f"that each {', '.join(sorted(left))} of {item.name} is there"] if left and there else []
 
@@ -498,12 +501,22 @@ def _within_budget(nets: list[list[dict[str, Any]]]) -> list[list[dict[str, Any]
 
 def _conditions(item: Item, surfaces: tuple[_Surface, ...]) -> dict[str, list[list[float]]]:
     """Where parameter lines and plane sections of an item are: values of u and of v; rows of normal and offset."""
+    planes = [[*np.asarray(one.normal).tolist(), offset] for one in item.curves.sections for offset in one.offsets]
     if not surfaces:
-        return {"parameters": [], "planes": []}
-    domain, lines = cast("Surface", item.shape).domain, item.curves
-    values = domain.grid(max(lines.columns, 1), max(lines.rows, 1))
-    planes = [[*np.asarray(one.normal).tolist(), offset] for one in lines.sections for offset in one.offsets]
+        return {"parameters": [], "planes": planes}
+    values = cast("Surface", item.shape).domain.grid(max(item.curves.columns, 1), max(item.curves.rows, 1))
     return {"parameters": [one.tolist() for one in values], "planes": planes}
+
+
+def _lights(scene: Scene, view: View, item: Item) -> list[list[float]]:
+    """What isophotes of an item are of: rows of direction or place, 0 or 1, and cosine."""
+    if not item.curves.isophotes:
+        return []
+    light = curve_light(scene, view, item)
+    return [
+        [*map(float, np.asarray(light.position)), 0.0 if light.parallel else 1.0, float(cosine)]
+        for cosine in item.curves.isophotes
+    ]
 
 
 def _nets(surfaces: tuple[_Surface, ...], rows: Floats, smooth_mm: float) -> list[dict[str, Any]]:
@@ -520,22 +533,20 @@ def _nets(surfaces: tuple[_Surface, ...], rows: Floats, smooth_mm: float) -> lis
     ]
 
 
-def _on_surfaces(
-    strokes: list[Any], surfaces: list[tuple[_Surface, ...]], items: list[Any], rows: Floats, smooth_mm: float
-) -> list[list[float]]:
+def _on_surfaces(strokes: list[Any], items: list[Any], shapes: drawn.Shapes) -> list[list[float]]:
     """Where on surfaces strokes run, in pieces that are straight in u and v: rows of stroke, segment, from, to, the
     number of the surface, u and v where the piece begins, and where it ends."""
     found, first = [], 0
-    for item, parts in zip(items, surfaces, strict=True):
-        own = [number for number, one in enumerate(strokes) if one["item"] == item["name"] and parts]
+    for item in items:
+        own = [number for number, one in enumerate(strokes) if one["item"] == item["name"] and item["surfaces"]]
         if own:
-            patches = [shapes.patch_of(row) for row in item["surfaces"]]
+            patches = [patch for _, patch in shapes.patches[first : first + len(item["surfaces"])]]
             ways = [np.array([*strokes[k]["points3d"], *strokes[k]["points3d"][: strokes[k]["closed"]]]) for k in own]
             values = [item["parameters"] if strokes[k]["kind"] == "parameter" else [[], []] for k in own]
-            pieces = _pieces(own, ways, values, patches, rows, smooth_mm)
+            pieces = _pieces(own, ways, values, patches, shapes.view, shapes.limits.fine)
             pieces[:, 4] += first
             found.append(pieces)
-        first += len(parts)
+        first += len(item["surfaces"])
     table = np.concatenate([np.zeros((0, 9)), *found])
     return [[int(a), int(b), c, d, int(e), *rest] for a, b, c, d, e, *rest in table.tolist()]
 
@@ -754,13 +765,24 @@ def _divided(knots: Floats, parts: Ints) -> Floats:
     return np.append(np.repeat(knots[:-1], parts) + share * np.repeat(np.diff(knots), parts), knots[-1])
 
 
-def _claims(model: checker.Model) -> dict[str, Any]:
-    """The strokes that are clear, and what hides each of the others, and of each part of a line that is not drawn."""
-    owner, segment = model.strokes.owner, checker.places_of(model.strokes)
-    dark = np.flatnonzero(model.hidden[owner])
-    strokes = _rows(segment[dark], _hidden(model, image.take(model.strokes, dark)))
-    lines = _rows(model.ends[model.wanted], _hidden(model, image.take(model.sides, model.wanted)))
-    return {"clear": np.flatnonzero(~model.hidden).tolist(), "hidden_strokes": strokes, "hidden_lines": lines}
+def strokes_claimed(found: Any, content: dict[str, Any], shapes: drawn.Shapes) -> dict[str, Any]:
+    """What a certificate says of the strokes of a drawing, both as in files: where they run on surfaces, which of them
+    are clear, and what hides each of the others."""
+    content = {**content, "on_surfaces": _on_surfaces(found["strokes"], content["items"], shapes)}
+    model = drawn.model_of(found, content, shapes)
+    dark = np.flatnonzero(model.hidden[model.strokes.owner])
+    parts = _hidden(shapes, image.take(model.strokes, dark))
+    return {
+        "on_surfaces": content["on_surfaces"],
+        "clear": np.flatnonzero(~model.hidden).tolist(),
+        "hidden_strokes": _rows(drawn.places_of(model.strokes)[dark], parts),
+    }
+
+
+def _lines_claimed(shapes: drawn.Shapes) -> dict[str, Any]:
+    """What hides each part of a line of meshes that is hidden."""
+    lines = _hidden(shapes, image.take(shapes.sides, shapes.wanted))
+    return {"hidden_lines": _rows(shapes.ends[shapes.wanted], lines)}
 
 
 def _rows(names: Ints, parts: image.Parts) -> list[list[Any]]:
@@ -769,12 +791,12 @@ def _rows(names: Ints, parts: image.Parts) -> list[list[Any]]:
     return [list(row) for row in columns]
 
 
-def _hidden(model: checker.Model, lines: image.Segments) -> image.Parts:
+def _hidden(shapes: drawn.Shapes, lines: image.Segments) -> image.Parts:
     """The parts of segments that triangles hide, by as few of these as possible, one after the other.
 
     Of all that begin before the part so far ends the one that ends last goes on (the greedy cover of an interval).
     """
-    parts = image.joined(image.hidden_parts(lines, model.of, 0.0))
+    parts = image.joined(image.hidden_parts(lines, shapes.of, 0.0))
     if not len(parts.line):
         return parts
     parts = image.take(parts, np.lexsort((parts.low, parts.line)))

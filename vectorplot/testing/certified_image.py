@@ -114,6 +114,25 @@ def placed(view: Floats, points: Floats) -> Floats:
         return image_of(view, points.reshape(-1, 3))[0].reshape(points.shape)
 
 
+def planes_in(view: Floats, planes: list[Any]) -> Floats:
+    """(n,4) planes, rows of normal and offset in the world, in the image: x, y, z, 1 times them are mm. Errors:
+    ValueError for a normal without length."""
+    rows = np.array(planes, dtype=np.float64).reshape(-1, 4) * [1.0, 1.0, 1.0, -1.0]
+    if not np.isfinite(rows).all() or not (np.abs(rows[:, :3]).max(axis=1, initial=0.0) > 0.0).all():
+        raise ValueError("a plane has no normal")
+    found = (np.linalg.inv(view).T[None] * rows[:, None]).sum(axis=2)
+    return np.asarray(found / np.linalg.norm(found[:, :3], axis=1)[:, None])
+
+
+def parts_in(lines: Segments, planes: Floats) -> Iterator[Parts]:
+    """Parts of segments that are within the slack of planes (n,4) in the image."""
+    every = np.arange(len(lines.owner))
+    for number, plane in enumerate(planes):
+        away = ((side * plane[:3]).sum(axis=1) + plane[3] for side in lines[:2])
+        ends = (np.stack([lines.slack - far, lines.slack + far], axis=1) for far in away)
+        yield clipped(every, np.full(len(every), number), *ends)
+
+
 def halves_of(corners: Floats) -> Floats:
     """(t,4,4) see Triangles, of corners (t,3,3)."""
     way = np.roll(corners, -1, axis=1) - corners
@@ -271,7 +290,7 @@ def edges_of(
     apart, alike = (np.linalg.norm(arm[f] + sign * arm[g], axis=1) for sign in (-1.0, 1.0))
     turn = 180.0 - 2.0 * np.degrees(np.arctan2(apart, alike))
     sure = np.minimum(height[f], height[g]) > 1e-9 * np.abs(world).max(initial=0.0)
-    across = (patch[f // 3] < 0) | (patch[f // 3] != patch[g // 3])
+    across = (count == 1) | (patch[f // 3] < 0) | (patch[f // 3] != patch[g // 3])
     may = {"contour": (count > 1) & one_sided[0] & across, "boundary": count == 1, "edges": across}
     may["crease"] = (count > 2) | (count == 2) & ((turn > angle_deg - ANGLE_DEG) | ~sure)
     must = {"contour": (count > 1) & one_sided[1] & facing & across, "boundary": count == 1}

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float64]
 Ints = NDArray[np.intp]
 
-LEAST, OUTWARD, CHUNK = 1e-300, 4.5e-16, 1 << 13
+LEAST, OUTWARD, CHUNK = 1e-300, 1e-15, 1 << 13
 """The least divisor; by so much results of rounding are widened; cells that are held at once."""
 MOST_CELLS, LONGEST, DEEPEST = 1 << 18, 4000, 24
 """Cells of a net and of its contours, each, at most; characters of a formula; rounds in which cells are refined."""
@@ -56,7 +56,8 @@ class Range:
 
     def through(self, function: Callable[[Any], Any]) -> Range:
         """The values of a function that rises; all numbers where it has none."""
-        low, high = function(self.low), function(self.high)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            low, high = function(self.low), function(self.high)
         none = np.isnan(low) | np.isnan(high)
         return Range(np.where(none, np.nan, low), np.where(none, np.nan, high))
 
@@ -301,6 +302,12 @@ def mean_jacobian(patch: Patch, rows: Floats, cells: Floats) -> tuple[Range | No
     by_v = plus(plus(by(xuv, yv), by(xu, yvv)), by(plus(by(xvv, yu), by(xv, yuv)), MINUS))
     steps = 0.5 * np.diff(cells.reshape(-1, 2, 2))[..., 0]
     return jacobian(x, y), (sizes([by_u, by_v], len(cells)) * steps).sum(axis=1), jets
+
+
+def steps(patch: Patch, rows: Floats, cells: Floats) -> tuple[Floats, Floats]:
+    """(n,2) each: mm that images of points move at most by u and by v, on the page, and with their heights."""
+    x, y, z = (sizes(one.slopes, len(cells)) for one in patch.jets(rows, cells))
+    return np.hypot(x, y), np.sqrt(x * x + y * y + z * z)
 
 
 def contour_cells(patch: Patch, rows: Floats, size: float) -> tuple[Floats, bool]:

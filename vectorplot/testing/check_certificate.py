@@ -14,253 +14,129 @@ from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from itertools import chain
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 if TYPE_CHECKING or __package__:
+    from . import certified_drawing as given
     from . import certified_image as geo
-    from . import certified_surfaces as formulas
 else:
     sys.path.insert(0, str(Path(__file__).parent))
+    import certified_drawing as given
     import certified_image as geo
-    import certified_surfaces as formulas
 
 FORMATS = ("vectorplot-drawing", "vectorplot-certificate")
-EDGE_KINDS = ("contour", "boundary", "crease")
-FACE_KINDS = ("intersection", "pattern", "section", "isophote", "parameter", "integral")
-OUTSIDE, DEEP, OFF = 3.0, 40.0, 0.5
-"""Times what is left open: so far outside of a contour one looks whether it is visible; strokes may be so much off in
-depth, and nets at all."""
+OUTSIDE = 3.0
+"""Times what is left open: so far outside of a contour one looks whether it is visible."""
 Fault = tuple[str, geo.Segments, geo.Parts, int]
 """What is wrong, where, and 0, or 1 where shapes without formulas may explain it, or 2 where it is just not proven."""
 
 
-class Model(NamedTuple):
-    """A drawing and the shapes of its certificate in the image. strokes: its segments, those on surfaces as pieces of
-    these; whole: as they are drawn; bare: parts that should be on surfaces, and are not; lifted (m,): strokes on them;
-    proved (s,): segments of strokes to prove, without tiny ones; kind, hidden (m,): of each stroke; sides: edges of
-    shapes; ends (e,2): their vertices; may: which of them each kind may show; wanted (w,): those that are drawn or
-    hidden; cells (c,9): where contours of surfaces are, see contour_cells; drawn (c,): of which item, -1 where they
-    need not be drawn; shift (p,): mm that points are off their places; off: mm that rounding may do; smooth: something
-    hides that is not certified; coarse: what is wrong with nets, a few words each."""
-
-    strokes: geo.Segments
-    whole: geo.Segments
-    bare: geo.Parts
-    lifted: geo.Bools
-    proved: geo.Bools
-    kind: NDArray[np.str_]
-    hidden: geo.Bools
-    sides: geo.Segments
-    ends: geo.Ints
-    may: dict[str, geo.Bools]
-    wanted: geo.Ints
-    of: geo.Triangles
-    cells: geo.Floats
-    drawn: geo.Ints
-    shift: geo.Floats
-    off: float
-    smooth: bool
-    coarse: list[str]
-
-
-def stacked(lists: list[Any], columns: int) -> tuple[geo.Floats, geo.Ints]:
-    """The rows of all lists as (n,columns), and how many each has. Errors: ValueError for what is not finite."""
-    rows = np.array([row for one in lists for row in one], dtype=np.float64).reshape(-1, columns)
-    if not np.isfinite(rows).all():
-        raise ValueError("a number is not finite")
-    return rows, np.array([len(one) for one in lists], dtype=np.intp)
-
-
-def named_parts(table: geo.Floats, names: geo.Ints) -> tuple[geo.Parts, geo.Ints]:
-    """Those of some rows (two numbers that name a segment, from, to, by what) on segments with the names (n,2), in
-    rising order; and which rows."""
-    base = float(max(names.max(initial=0), table[:, :2].max(initial=0))) + 1.0
-    keys, key = np.append(names[:, 0] * base + names[:, 1], np.inf), table[:, 0] * base + table[:, 1]
-    line = np.searchsorted(keys, key)
-    kept = np.flatnonzero(keys[line] == key)
-    return geo.Parts(line[kept], table[kept, 2], table[kept, 3], table[kept, 4].astype(np.intp)), kept
-
-
-def places_of(lines: geo.Segments) -> geo.Ints:
-    """(n,2) the numbers of strokes, in rising order, and of the segments in each."""
-    return np.stack([lines.owner, np.arange(len(lines.owner)) - np.searchsorted(lines.owner, lines.owner)], axis=1)
-
-
-def on_surfaces(
-    lines: geo.Segments, rows: Any, kinds: Any, patches: Any, items: Any, view: geo.Floats
-) -> tuple[geo.Segments, geo.Parts]:
-    """Straight pieces, which follow surfaces, of segments that do, parameter lines and sections as their items say; and
-    what parts these are. rows: the number of a segment (2), from, to, which surface, u and v at both ends (4)."""
-    table, slack = stacked([rows], 9)[0], float(lines.slack.max(initial=0.0))
-    parts, kept = named_parts(table, places_of(lines))
-    ends, right, start, end = table[kept, 5:], np.zeros(len(kept), dtype=np.bool_), *np.zeros((2, len(kept), 3))
-    for number, (item, surface) in enumerate(patches):
-        own = np.flatnonzero(parts.by == number)
-        (u, v), word = ends[own].reshape(-1, 2, 2).transpose(2, 0, 1), kinds[lines.owner[parts.line[own]]]
-        cells = np.hstack([np.sort(u, axis=1), np.sort(v, axis=1)])
-        inside = (cells[:, ::2] >= [surface.u[0], surface.v[0]]) & (cells[:, 1::2] <= [surface.u[-1], surface.v[-1]])
-        close = formulas.deviations(surface, view, cells).sum(axis=1) <= OFF * slack
-        points = surface.points(u, v)
-        image = geo.placed(view, points)
-        start[own], end[own] = image.swapaxes(0, 1)
-        along = ~np.isin(word, ["parameter", "section"])
-        for axis, values in enumerate(items[item]["parameters"]):
-            nearest = np.array([*values, np.inf])[
-                np.abs(np.subtract.outer(ends[own, axis], [*values, 1e300])).argmin(axis=1)
-            ]
-            there = surface.points(*(nearest[:, None] + 0.0 * u, v) if axis == 0 else (u, nearest[:, None] + 0.0 * v))
-            along |= (word == "parameter") & (np.abs(geo.placed(view, there) - image) <= slack).all(axis=(1, 2))
-        for *normal, offset in items[item]["planes"]:
-            above = (points * normal).sum(axis=-1) - offset
-            there = points - above[..., None] * np.array(normal) / max(float(np.square(normal).sum()), geo.LEAST)
-            along |= (word == "section") & (np.abs(geo.placed(view, there) - image) <= slack).all(axis=(1, 2))
-        right[own] = close & along & inside.all(axis=1) & np.isfinite(start[own] + end[own]).all(axis=1)
-    for share, at, tip in ((parts.low, start, 0.0), (parts.high, end, 1.0)):
-        way = at - lines.at(parts.line, share)
-        right &= (np.hypot(*way.T[:2]) <= slack) & ((share != tip) | (np.abs(way[:, 2]) <= DEEP * slack))
-    order = np.lexsort((parts.low, parts.line))
-    order = order[right[order]]
-    pieces = geo.Segments(start, end, lines.owner[parts.line], np.full(len(kept), slack))
-    return geo.take(pieces, order), geo.take(parts, order)
-
-
-def model_of(drawing: Any, certificate: Any) -> Model:
-    """The two in the image. Errors: ValueError, KeyError, TypeError or IndexError for what is neither."""
-    if [(one["format"], one["version"]) for one in (drawing, certificate)] != [(name, 1) for name in FORMATS]:
-        raise ValueError(f"expected files of the formats {' and '.join(FORMATS)}, version 1")
-    items, rows = certificate["items"], drawing["strokes"]
-    width, fine = (float(certificate[key]) for key in ("width_mm", "smooth_mm"))
-    (world, vertices), (corners, faces) = (stacked([one[key] for one in items], 3) for key in ("vertices", "triangles"))
-    item = np.repeat(np.arange(len(items)), faces)
-    triangles, patch = corners.astype(np.intp), np.full(len(corners), -1)
-    if ((triangles < 0) | (triangles >= vertices[item][:, None])).any():
-        raise ValueError("a triangle has a vertex that there is not")
-    triangles += (np.cumsum(vertices) - vertices)[item][:, None]
-    patches = [(number, formulas.patch_of(row)) for number, one in enumerate(items) for row in one["surfaces"]]
-    for which, (owner, surface) in enumerate(patches):
-        points, more = formulas.net_of(surface)
-        triangles, world = np.concatenate([triangles, more + len(world)]), np.concatenate([world, points])
-        item, patch = (np.append(one, np.full(len(more), k)) for one, k in ((item, owner), (patch, which)))
-    if len(triangles) > 4 * formulas.MOST_CELLS:
-        raise ValueError("the nets have too many cells")
-    # A closed stroke ends in its first point.
-    ways = ([[*row[key], *row[key][: row["closed"]]] for row in rows] for key in ("points", "points3d"))
-    (page, many), (space, again) = (stacked(way, columns) for way, columns in zip(ways, (2, 3), strict=True))
-    if not np.array_equal(many, again) or not many.all():
-        raise ValueError("points and points3d of a stroke differ")
-    view = geo.image_rows(stacked([drawing["page_from_world"]], 4)[0], world)
-    image, off = geo.image_of(view, np.concatenate([world, space]))
-    image, points = image[: len(world)], image[len(world) :]
-    stroke = np.repeat(np.arange(len(rows)), many)
-    begin = np.flatnonzero(stroke[:-1] == stroke[1:])
-    strokes = geo.Segments(
-        points[begin], points[begin + 1], stroke[begin], np.full(len(begin), fine if patches else width)
-    )
-    if patches:
-        same = geo.welded(image)[triangles]
-        kept = (patch < 0) | (same != np.roll(same, 1, axis=1)).all(axis=1)
-        triangles, item, patch = np.where(patch[:, None] < 0, triangles, same)[kept], item[kept], patch[kept]
-    open_ = fine if patches else width
-    slack, nets, cells, drawn, coarse = np.full(len(patch), open_), np.zeros(len(patch)), [], [], list[str]()
-    for number, (owner, surface) in enumerate(patches):
-        name, off_net = (
-            items[owner]["name"],
-            float(formulas.deviations(surface, view, surface.grid()).sum(axis=1).max()),
-        )
-        found, every = formulas.contour_cells(surface, view, fine)
-        nets[patch == number] = off_net
-        cells.append(found)
-        drawn.append(np.full(len(found), owner if "contour" in items[owner]["lines"] else -1))
-        coarse += [f"what {name} shows and hides: its net may be {off_net:.2g} mm off"] * (not off_net <= OFF * fine)
-        coarse += [f"that contours of {name} are complete: too many cells"] * (not every)
-    ends, at, may, must, outline = geo.edges_of(
-        world, image, triangles, certificate["crease_angle_deg"], 0.01 * width, patch
-    )
-    # Edges of one surface count together.
-    places = np.where(patch[at] < 0, np.arange(len(ends)), len(ends) + patch[at])
-    sides = geo.Segments(image[ends[:, 0]], image[ends[:, 1]], places, slack[at])
-    has = {word: np.array([word in one["lines"] for one in items], dtype=np.bool_)[item[at]] for word in EDGE_KINDS}
-    wanted = np.logical_or.reduce([must[word] & has[word] for word in EDGE_KINDS]) & (sides.length > 4.0 * width)
-    spots, hides = image[triangles], np.array([one["hides"] for one in items], dtype=np.bool_)[item]
-    area = np.abs(np.cross(spots[:, 1] - spots[:, 0], spots[:, 2] - spots[:, 0])[:, 2])
-    broad = area > 0.02 * width * np.ptp(spots[..., :2], axis=1).max(axis=1, initial=0.0)
-    of = geo.Triangles(spots, geo.halves_of(spots), outline, np.flatnonzero(hides & broad), nets, slack)
-    kind, hidden, names = (np.array([row[key] for row in rows]) for key in ("kind", "hidden_by", "item"))
-    smooth = {one["name"]: bool(one["surfaces"]) for one in items if one["smooth"]}
-    of_kind = np.isin(kind, [*may, *FACE_KINDS])[strokes.owner] & (strokes.length > 4.0 * width)
-    on = np.isin(names, [name for name, certified in smooth.items() if certified])
-    lifted = on[strokes.owner]
-    pieces, told = on_surfaces(strokes, certificate["on_surfaces"], kind, patches, items, view)
-    pieces = geo.take(pieces, lifted[told.line])
-    bare = geo.gaps(told, strokes.least(ratio_of(certificate)))
-    bare = geo.take(bare, (lifted & of_kind)[bare.line])
-    own = geo.together(geo.take(strokes, ~lifted), pieces)
-    own = geo.take(own, np.argsort(own.owner, kind="stable"))
-    proved = np.isin(kind, [*may, *FACE_KINDS])[own.owner] & (own.length > 4.0 * width)
-    proved &= ~np.isin(names, [name for name, certified in smooth.items() if not certified])[own.owner]
-    shift = np.asarray(np.hypot(*(page - points[:, :2]).T))
-    bare_smooth = any(one["smooth"] and one["hides"] and not one["surfaces"] for one in items)
-    where = np.concatenate([np.zeros((0, 9)), *cells]), np.concatenate([np.zeros(0, dtype=np.intp), *drawn])
-    lines = own, strokes, bare, on, proved, kind, hidden > 0, sides, ends, may, np.flatnonzero(wanted), of
-    return Model(*lines, *where, shift, off, bare_smooth, coarse)
-
-
 def check(drawing: Any, certificate: Any) -> tuple[list[str], list[str], dict[str, int]]:
     """What is wrong with a drawing, and what is not proven, a line each, and how much was compared; both are given as
-    they are read from JSON. Errors: see model_of."""
-    wrong, unproven, model = list[str](), list[str](certificate["not_certified"]), model_of(drawing, certificate)
+    they are read from JSON. Errors: see shapes_of."""
+    if [(one["format"], one["version"]) for one in (drawing, certificate)] != [(name, 1) for name in FORMATS]:
+        raise ValueError(f"expected files of the formats {' and '.join(FORMATS)}, version 1")
+    shapes = given.shapes_of(certificate)
+    model = given.model_of(drawing, certificate, shapes)
+    wrong, unproven = list[str](), list[str](certificate["not_certified"])
     if drawing["page_from_world"] != certificate["page_from_world"]:
         wrong.append("the drawing is seen by another camera than the certificate")
-    seen = np.isfinite(model.shift).all() and np.isfinite(model.of.corners).all()
-    if not seen or model.off > geo.SEAM_MM:
-        why = f"rounding moves points by {model.off:.2g} mm" if seen else "the scene reaches behind the eye"
+    seen, off = np.isfinite(model.shift).all() and np.isfinite(shapes.of.corners).all(), max(model.off, shapes.off)
+    if not seen or off > geo.SEAM_MM:
+        why = f"rounding moves points by {off:.2g} mm" if seen else "the scene reaches behind the eye"
         return wrong, [*unproven, f"anything: {why}"], {}
-    unproven += model.coarse
-    if (model.shift > certificate["width_mm"]).any():
+    unproven += shapes.coarse + unproved_kinds(drawing, model, shapes)
+    if (model.shift > shapes.limits.width).any():
         wrong.append(f"points of strokes are up to {model.shift.max():.4g} mm off their places in space")
-    only = {*model.kind[np.flatnonzero(model.lifted)].tolist()} & {"isophote", "integral", "pattern", "intersection"}
-    unproven += [f"that each {word} stroke on a surface, where it is, is one" for word in sorted(only)]
-    unproven += [f"strokes of the kind {word}" for word in sorted({*model.kind.tolist()} - {*model.may, *FACE_KINDS})]
-    faults = (faults(model, certificate) for faults in (check_places, check_sight, check_missing, check_contours))
-    for what, lines, parts, open_ in (fault for some in faults for fault in some if len(fault[2].line)):
-        mm = (parts.high - parts.low) * lines.length[parts.line]
+    if (model.item[np.isin(model.kind, [*shapes.may, *given.FACE_KINDS])] < 0).any():
+        wrong.append("strokes are of items that there are not")
+    if sorted(certificate["clear"]) != np.flatnonzero(~model.hidden).tolist():
+        wrong.append("other strokes are visible than the certificate says")
+    found = judged(model, certificate, shapes, (check_places, check_sight, check_missing, check_contours))
+    counts = {"strokes": len(model.kind), "triangles": len(shapes.of.halves), "lines": len(shapes.wanted)}
+    counts["witnesses"] = len(certificate["hidden_strokes"]) + len(certificate["hidden_lines"])
+    return wrong + found[0], unproven + found[1], counts
+
+
+def unproved_kinds(drawing: Any, model: given.Model, shapes: given.Shapes) -> list[str]:
+    """What of a drawing is not looked at, a few words each."""
+    on, known = (
+        np.isin(model.kind, [*shapes.may, *given.FACE_KINDS]),
+        {"format", "version", "page_mm", "page_from_world"},
+    )
+    only = {*model.kind[model.lifted].tolist()} & {"integral", "pattern"}
+    said = [f"that each {word} stroke on a surface, where it is, is one" for word in sorted(only)]
+    said += [f"strokes of the kind {word}" for word in sorted({*model.kind[~on].tolist()})]
+    for one in shapes.items:
+        drawn = (on & (model.item == shapes.names[one["name"]])).any()
+        if one["smooth"] and not one["surfaces"] and (drawn or one["hides"]):
+            said.append(f"what {one['name']} shows and hides, which has no formulas")
+    if model.hidden.any() and shapes.limits.gap is None:
+        said.append("that all hidden lines are there")
+    return said + [f"{key} of the drawing" for key in sorted({*drawing} - {*known, "strokes"}) if drawing[key]]
+
+
+def judged(
+    model: given.Model, certificate: Any, shapes: given.Shapes, checks: tuple[Callable[..., Iterator[Fault]], ...]
+) -> tuple[list[str], list[str]]:
+    """What some checks find wrong, and not proven, a line each."""
+    wrong, unproven, limits = list[str](), list[str](), shapes.limits
+    for what, lines, parts, open_ in chain.from_iterable(check(model, certificate, shapes) for check in checks):
+        length, slack = lines.length[parts.line], lines.slack[parts.line]
+        mm = (parts.high - parts.low) * length
         # On surfaces lines are in short pieces, and contours in cells: what is shorter all in all is not looked at.
-        total = np.bincount(lines.owner[parts.line], mm)[lines.owner[parts.line]]
-        long = (total > ratio_of(certificate) * lines.slack[parts.line]) | (
-            lines.slack[parts.line] < certificate["smooth_mm"]
-        )
+        total = np.bincount(lines.owner[parts.line], mm)[lines.owner[parts.line]] if len(mm) else mm
+        long = (total > limits.ratio * slack) | ((slack < limits.fine) & (length > 4.0 * limits.width))
         if not long.any():
             continue
         parts, mm = geo.take(parts, long), mm[long]
         worst = geo.take(parts, [int(np.argmax(mm))])
         (x, y, _), (u, v, _) = (lines.at(worst.line, share)[0] for share in (worst.low, worst.high))
         where = f"{lines.owner[worst.line[0]]}, for {mm.max():.4g} mm, from ({x:.4f}, {y:.4f}) to ({u:.4f}, {v:.4f}) mm"
-        (unproven if open_ > 1 or (open_ and model.smooth) else wrong).append(
+        (unproven if open_ > 1 or (open_ and shapes.smooth) else wrong).append(
             f"{what} {len(mm)} times, the longest: number {where}"
         )
-    counts = {"strokes": len(model.kind), "triangles": len(model.of.halves), "lines": len(model.wanted)}
-    return (
-        wrong,
-        unproven,
-        {**counts, "witnesses": len(certificate["hidden_strokes"]) + len(certificate["hidden_lines"])},
-    )
+    return wrong, unproven
 
 
-def check_places(model: Model, certificate: Any) -> Iterator[Fault]:
+def check_places(model: given.Model, certificate: Any, shapes: given.Shapes) -> Iterator[Fault]:
     """Strokes are on lines of their kind, and drawn once."""
-    ratio, fine, long = ratio_of(certificate), certificate["smooth_mm"], geo.take(model.strokes, model.proved)
+    ratio, fine, long = shapes.limits.ratio, shapes.limits.fine, geo.take(model.strokes, model.proved)
     yield "on no surface, or no such line of it, of stroke", model.whole, model.bare, 0
     for word in np.unique(model.kind[long.owner]).tolist():
-        own = geo.take(long, (model.kind[long.owner] == word) & (~model.lifted[long.owner] | np.isin(word, EDGE_KINDS)))
-        mesh = geo.take(model.sides, model.may[word]) if word in model.may else None
-        on = [*(geo.lying_parts(own, model.of) if mesh is None else geo.parts_along(own, mesh, 1.0, 1.0 / ratio))]
-        on += geo.parts_near(own, model.cells, fine, DEEP * fine) if word == "contour" else []
-        yield f"{word} where there is none, of stroke", own, geo.gaps(geo.joined(on), own.least(ratio)), False
+        own = geo.take(long, model.kind[long.owner] == word)
+        flat, least = ~model.lifted[own.owner], own.least(ratio)
+        if word in shapes.may:
+            on = [*geo.parts_along(own, geo.take(shapes.sides, shapes.may[word]), 1.0, 1.0 / ratio)]
+            cells = geo.joined(geo.parts_near(own, shapes.cells, fine, given.DEEP * fine) if word == "contour" else [])
+            alike = model.item[own.owner[cells.line]] == shapes.cell_item[cells.by]
+            yield (
+                f"{word} where there is none, of stroke",
+                own,
+                geo.gaps(geo.joined([*on, geo.take(cells, alike)]), least),
+                0,
+            )
+            continue
+        lying = geo.joined(geo.lying_parts(own, shapes.of))
+        bare = geo.gaps(lying, least)
+        yield f"{word} where there is none, of stroke", own, geo.take(bare, flat[bare.line]), 0
+        if word == "intersection":
+            # What is on two items is so without any one of them.
+            items = shapes.item[lying.by]
+            alone = geo.joined(geo.gaps(geo.take(lying, items != one), least) for one in np.unique(items))
+            yield "intersection with nothing, of stroke", own, geo.united(alone, 0.0 * least), 1
+        doubt = np.flatnonzero(model.doubt[model.proved][model.kind[long.owner] == word])
+        whole = geo.Parts(doubt, 0.0 * doubt, 0.0 * doubt + 1.0, doubt)
+        yield "isophote that may be none, of stroke", own, whole, 2
+        if word == "section":
+            planes = np.concatenate([geo.planes_in(shapes.view, one["planes"]) for one in shapes.items])
+            bare = geo.gaps(geo.joined(geo.parts_in(own, planes)), least)
+            yield "section in no plane, of stroke", own, geo.take(bare, flat[bare.line]), 0
     twice = geo.joined(geo.parts_along(long, long, 0.1, 1.0))
     again = (twice.by < twice.line) & (twice.high - twice.low > long.least(ratio)[twice.line])
     again &= (long.slack[twice.line] < fine) | (long.owner[twice.line] != long.owner[twice.by])
@@ -268,73 +144,67 @@ def check_places(model: Model, certificate: Any) -> Iterator[Fault]:
     yield "drawn twice, of stroke", long, geo.take(twice, again), 0
 
 
-def check_sight(model: Model, certificate: Any) -> Iterator[Fault]:
+def check_sight(model: given.Model, certificate: Any, shapes: given.Shapes) -> Iterator[Fault]:
     """What is drawn as visible is, and what is drawn as hidden is behind what is named."""
-    ratio, behind = ratio_of(certificate), model.hidden[model.strokes.owner]
+    ratio, behind = shapes.limits.ratio, model.hidden[model.strokes.owner]
     seen = geo.take(model.strokes, model.proved & ~behind)
-    parts = geo.united(geo.joined(geo.hidden_parts(seen, model.of, 1.0)), seen.least(ratio))
+    parts = geo.united(geo.joined(geo.hidden_parts(seen, shapes.of, 1.0)), seen.least(ratio))
     parts = geo.take(parts, parts.high - parts.low > seen.least(ratio)[parts.line])
-    yield "visible, but hidden, of stroke", seen, parts, False
-    told = named_parts(stacked([certificate["hidden_strokes"]], 5)[0], places_of(model.strokes))[0]
-    dark, away = model.proved & behind, geo.hidden_by(model.strokes, told, model.of)
-    left = geo.gaps(away, model.strokes.least(ratio))
+    yield "visible, but hidden, of stroke", seen, parts, 0
+    told = given.named_parts(given.stacked([certificate["hidden_strokes"]], 5)[0], given.places_of(model.strokes))[0]
+    dark, away = model.proved & behind, geo.hidden_by(model.strokes, told, shapes.of)
     # In the strips beside outlines lines may be hidden or not: there is no proof.
     every = geo.take(model.strokes, dark)
     strips = geo.joined(
-        [*geo.hidden_parts(every, model.of, -1.0), *geo.parts_near(every, model.cells, certificate["smooth_mm"])]
+        [*geo.hidden_parts(every, shapes.of, -1.0), *geo.parts_near(every, shapes.cells, shapes.limits.fine)]
     )
     strips = geo.take(
-        strips._replace(line=np.flatnonzero(dark)[strips.line]), every.slack[strips.line] > certificate["width_mm"]
+        strips._replace(line=np.flatnonzero(dark)[strips.line]), every.slack[strips.line] > shapes.limits.width
     )
     left = geo.gaps(geo.joined([away, strips]), model.strokes.least(ratio))
-    yield "hidden by nothing that is named, of stroke", model.strokes, geo.take(left, dark[left.line]), True
+    yield "hidden by nothing that is named, of stroke", model.strokes, geo.take(left, dark[left.line]), 1
 
 
-def check_missing(model: Model, certificate: Any) -> Iterator[Fault]:
+def check_missing(model: given.Model, certificate: Any, shapes: given.Shapes) -> Iterator[Fault]:
     """Lines of meshes are drawn, or hidden by what is named; hidden ones, if any is drawn, but for gaps of dashes."""
-    lines, ratio = geo.take(model.sides, model.wanted), ratio_of(certificate)
-    away = geo.hidden_by(
-        lines, named_parts(stacked([certificate["hidden_lines"]], 5)[0], model.ends[model.wanted])[0], model.of
-    )
-    visible, window = (
-        geo.take(model.strokes, ~model.hidden[model.strokes.owner]),
-        stacked([certificate["window_mm"]], 2)[0],
-    )
+    lines, ratio, window = geo.take(shapes.sides, shapes.wanted), shapes.limits.ratio, shapes.limits.window
+    told = given.named_parts(given.stacked([certificate["hidden_lines"]], 5)[0], shapes.ends[shapes.wanted])[0]
+    visible = geo.take(model.strokes, ~model.hidden[model.strokes.owner])
     ends = (np.hstack([side[:, :2] - window[0], window[1] - side[:, :2]]) for side in lines[:2])
-    outside = geo.gaps(geo.clipped(every := np.arange(len(model.wanted)), every, *ends), np.zeros(len(every)))
-    there = geo.joined([*geo.parts_along(lines, visible, 1.0, 0.0), away, outside])
-    yield "neither drawn nor hidden, of edge", lines, geo.gaps(there, lines.least(ratio)), True
-    if (gap := certificate["hidden_gap_mm"]) is not None:
-        there = geo.joined([*geo.parts_along(lines, model.strokes, 1.0, 0.0), outside])
+    outside = geo.gaps(geo.clipped(every := np.arange(len(shapes.wanted)), every, *ends), np.zeros(len(every)))
+    there = [*geo.parts_along(lines, visible, 1.0, 0.0), geo.hidden_by(lines, told, shapes.of), outside]
+    yield "neither drawn nor hidden, of edge", lines, geo.gaps(geo.joined(there), lines.least(ratio)), 1
+    if (gap := shapes.limits.gap) is not None:
+        there = [*geo.parts_along(lines, model.strokes, 1.0, 0.0), outside]
         shortest = lines.least(ratio) + gap / np.maximum(lines.length, geo.LEAST)
-        yield "hidden lines are drawn, but not, of edge", lines, geo.gaps(there, shortest), True
+        yield "hidden lines are drawn, but not, of edge", lines, geo.gaps(geo.joined(there), shortest), 1
 
 
-def check_contours(model: Model, certificate: Any) -> Iterator[Fault]:
+def check_contours(model: given.Model, certificate: Any, shapes: given.Shapes) -> Iterator[Fault]:
     """Contours of surfaces are drawn, or hidden; nothing is, that close to their ends, where they may be either."""
-    fine, window = certificate["smooth_mm"], stacked([certificate["window_mm"]], 2)[0]
-    within = ((model.cells[:, :2] > window[0] + fine) & (model.cells[:, :2] < window[1] - fine)).all(axis=1)
-    within &= model.drawn >= 0
-    cells = model.cells[within]
+    fine, window, size = shapes.limits.fine, shapes.limits.window, shapes.limits.ratio * shapes.limits.fine
+    within = ((shapes.cells[:, :2] > window[0] + fine) & (shapes.cells[:, :2] < window[1] - fine)).all(axis=1)
+    within &= shapes.drawn
+    cells = shapes.cells[within]
     slack, every = np.full(len(cells), fine), np.arange(len(cells))
     place, beyond = cells[:, :3], cells[:, :3] + OUTSIDE * fine * np.hstack([cells[:, 6:8], 0.0 * cells[:, :1]])
-    lines = geo.Segments(place - cells[:, 3:6], place + cells[:, 3:6], model.drawn[within], slack)
+    lines = geo.Segments(place - cells[:, 3:6], place + cells[:, 3:6], shapes.cell_item[within], slack)
     visible = geo.take(model.strokes, ~model.hidden[model.strokes.owner])
     left = np.ones(len(cells), dtype=np.bool_)
     left[geo.joined(geo.parts_near(visible, cells, fine)).by] = False
-    left[geo.joined(geo.hidden_parts(geo.Segments(place, place, every, slack), model.of, 0.0)).line] = False
+    left[geo.joined(geo.hidden_parts(geo.Segments(place, place, every, slack), shapes.of, 0.0)).line] = False
     maybe = np.zeros(len(cells), dtype=np.bool_)
-    maybe[geo.joined(geo.hidden_parts(geo.Segments(beyond, beyond, every, slack), model.of, -1.0)).line] = True
+    maybe[geo.joined(geo.hidden_parts(geo.Segments(beyond, beyond, every, slack), shapes.of, -1.0)).line] = True
     parts, sure = geo.Parts(every, 0.0 * slack, 0.0 * slack + 1.0, every), cells[:, 8] > 0.0
-    left &= reaches(place, left, ratio_of(certificate) * fine)
-    yield "contour neither drawn nor hidden, of item", lines, geo.take(parts, left & ~maybe & sure), False
+    left &= reaches(place, left, size)
+    yield "contour neither drawn nor hidden, of item", lines, geo.take(parts, left & ~maybe & sure), 0
     yield "contour that may be left out, of item", lines, geo.take(parts, left & ~maybe & ~sure), 2
     yield "contour beside outlines, drawn or hidden, of item", lines, geo.take(parts, left & maybe), 2
-    if (gap := certificate["hidden_gap_mm"]) is not None:
+    if (gap := shapes.limits.gap) is not None:
         bare = sure.copy()
         bare[geo.joined(geo.parts_near(model.strokes, cells, fine + gap)).by] = False
-        bare &= reaches(place, bare, ratio_of(certificate) * fine + gap)
-        yield "hidden contours are drawn, but not, of item", lines, geo.take(parts, bare), False
+        bare &= reaches(place, bare, size + gap)
+        yield "hidden contours are drawn, but not, of item", lines, geo.take(parts, bare), 0
 
 
 def reaches(place: geo.Floats, which: geo.Bools, size: float) -> geo.Bools:
@@ -344,11 +214,6 @@ def reaches(place: geo.Floats, which: geo.Bools, size: float) -> geo.Bools:
     for one, other in geo.near(points, points, points - room, points + room):
         found[number[one[np.hypot(*(points[one] - points[other]).T[:2]) > 0.5 * size]]] = True
     return found
-
-
-def ratio_of(certificate: Any) -> float:
-    """Parts that are not looked at are so many times as long as what is left open is wide."""
-    return float(certificate["size_mm"] / certificate["width_mm"])
 
 
 def main(names: list[str]) -> int:
