@@ -273,6 +273,192 @@ def test_names_are_escaped(tmp_path):
     assert json.loads(text)["items"][0]["name"] == name
 
 
+# Certificates that are made to deceive.
+
+
+def files(scene, **how):
+    """A drawing and its certificate, as they are read."""
+    drawing = vp.draw(scene, "iso", **how)
+    return json.loads(json_bytes(drawing)), json.loads(bytes(certificate(scene, drawing, "iso", **how)))
+
+
+@pytest.fixture(scope="module")
+def cube_files():
+    return files(box((2, 2, 2)), hidden="solid")
+
+
+@pytest.fixture(scope="module")
+def ball_files():
+    """A ball with an isophote, before a post, on a stamp."""
+    lines = vp.SurfaceLines(isophotes=(0.4,))
+    post = vp.Item("POST", box((0.3, 0.3, 3.0)), lines=("contour", "crease"))
+    ball = vp.Item("BALL", Sphere(1.0), curves=lines, lines=("contour", "isophote", "intersection"))
+    return files(vp.Scene((ball, post)), hidden="solid", page=vp.Page(16.0, 16.0, 2.0))
+
+
+def told_of(pair, *, drawing=None, proof=None):
+    """What the checker says of two files, changed."""
+    return check({**pair[0], **(drawing or {})}, {**pair[1], **(proof or {})})[:2]
+
+
+def test_right_files_are_proved(cube_files, ball_files):
+    assert told_of(cube_files) == told_of(ball_files) == ([], [])
+
+
+@pytest.mark.parametrize("number", [float("nan"), float("inf"), -1.0, 0.0, 1e6])
+@pytest.mark.parametrize("key", ["width_mm", "size_mm", "smooth_mm"])
+def test_what_is_left_open_is_a_small_length(cube_files, key, number):
+    with pytest.raises(ValueError, match="what is left open"):
+        told_of(cube_files, proof={key: number})
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"window_mm": [[282, 195], [15, 15]]},
+        {"window_mm": [[15, 15], [15, 195]]},
+        {"window_mm": [[float("nan"), 15], [282, 195]]},
+        {"window_mm": []},
+        {"crease_angle_deg": float("nan")},
+        {"crease_angle_deg": -1.0},
+        {"hidden_gap_mm": float("nan")},
+        {"hidden_gap_mm": -1.0},
+        {"version": 2},
+        {"hidden_strokes": [[0, 0, float("nan"), 1.0, 0]]},
+    ],
+)
+def test_numbers_that_would_excuse_everything_are_none(cube_files, change):
+    with pytest.raises(ValueError, match=r"window|open|gap|version|finite"):
+        told_of(cube_files, proof=change)
+
+
+def test_planes_have_normals(cube_files):
+    item = {**cube_files[1]["items"][0], "planes": [[0.0, 0.0, 0.0, 0.0]]}
+    section = {**cube_files[0]["strokes"][0], "kind": "section"}
+    with pytest.raises(ValueError, match="a plane has no normal"):
+        told_of(cube_files, drawing={"strokes": [section]}, proof={"items": [item]})
+
+
+def test_strokes_are_open_or_closed(cube_files):
+    strokes = [{**one, "closed": 3} for one in cube_files[0]["strokes"]]
+    with pytest.raises(ValueError, match="neither open nor closed"):
+        told_of(cube_files, drawing={"strokes": strokes})
+
+
+def test_a_stroke_in_crumbs_is_looked_at(cube_files):
+    """Hidden strokes that are shown, divided into segments that are shorter than what is left open."""
+    drawing, _ = cube_files
+    strokes = json.loads(json.dumps(drawing["strokes"]))
+    for one in strokes:
+        for key in ("points", "points3d"):
+            points = np.array(one[key])[:2]
+            one[key] = (points[0] + np.linspace(0.0, 1.0, 40001)[:, None] * (points[1] - points[0])).tolist()
+        one["closed"] = False
+    behind = [{**one, "hidden_by": 0} for one in strokes if one["hidden_by"]][:1]
+    clear = [number for number, one in enumerate(drawing["strokes"]) if not one["hidden_by"]]
+    strokes = [one for one in drawing["strokes"] if not one["hidden_by"]] + behind
+    wrong, _ = told_of(cube_files, drawing={"strokes": strokes}, proof={"clear": [*range(len(clear) + 1)]})
+    assert any(line.startswith("visible, but hidden") for line in wrong)
+
+
+def test_what_is_not_compared_is_said(cube_files):
+    _, unproven = told_of(cube_files, drawing={"fills": [{"colour": "#000000"}]})
+    assert unproven == ["fills of the drawing"]
+    _, unproven = told_of(cube_files, proof={"hidden_gap_mm": None})
+    assert unproven == ["that all hidden lines are there"]
+    item = cube_files[1]["items"][0]
+    _, unproven = told_of(cube_files, proof={"items": [{**item, "lines": []}]})
+    assert unproven == ["that all lines of any kind are there"]
+    _, unproven = told_of(cube_files, proof={"items": [{**item, "smooth": True}]})
+    assert unproven[0].endswith("shows and hides, which has no formulas")
+
+
+def test_strokes_of_no_item_and_other_clear_ones_are_wrong(cube_files):
+    strokes = [{**one, "item": "GHOST"} for one in cube_files[0]["strokes"]]
+    assert told_of(cube_files, drawing={"strokes": strokes})[0] == ["strokes are of items that there are not"]
+    assert told_of(cube_files, proof={"clear": []})[0] == ["other strokes are visible than the certificate says"]
+
+
+@pytest.mark.parametrize(("kind", "what"), [("intersection", "with nothing"), ("section", "in no plane")])
+def test_a_line_across_a_face_is_none(cube_files, kind, what):
+    drawing, _ = cube_files
+    matrix = np.array(drawing["page_from_world"])
+    ends = np.array([[-0.5, -0.4, 1.0], [0.5, 0.3, 1.0]])
+    lift = np.array(cube_files[1]["items"][0]["vertices"]).max(axis=0) - 1.0
+    image = np.hstack([ends + lift, np.ones((2, 1))]) @ matrix.T
+    more = {"kind": kind, "item": drawing["strokes"][0]["item"], "hidden_by": 0, "closed": False}
+    more |= {"points": (image[:, :2] / image[:, 3:]).tolist(), "points3d": (ends + lift).tolist()}
+    clear = [*cube_files[1]["clear"], len(drawing["strokes"])]
+    wrong, _ = told_of(cube_files, drawing={"strokes": [*drawing["strokes"], more]}, proof={"clear": clear})
+    assert len(wrong) == 1 and wrong[0].startswith(f"{kind} {what}")
+
+
+def test_an_edge_that_is_drawn_as_two_kinds_is_drawn_twice(cube_files):
+    strokes = cube_files[0]["strokes"]
+    again = next(one for one in strokes if one["kind"] == "contour")
+    edges = [{**again, "kind": "crease"}]
+    clear = [*cube_files[1]["clear"], len(strokes)]
+    wrong, _ = told_of(cube_files, drawing={"strokes": strokes + edges}, proof={"clear": clear})
+    assert wrong and all(line.startswith("drawn twice") for line in wrong)
+
+
+def test_strokes_on_surfaces_are_what_they_are_called(ball_files):
+    """An isophote that is called an edge, or an intersection; none, those of another cosine, and of another light."""
+    drawing, proof = ball_files
+    renamed = [{**one, "kind": "edges"} if one["kind"] == "isophote" else one for one in drawing["strokes"]]
+    assert told_of(ball_files, drawing={"strokes": renamed})[0][0].startswith("edges where there is none")
+    renamed = [{**one, "kind": "intersection"} if one["kind"] == "isophote" else one for one in drawing["strokes"]]
+    assert told_of(ball_files, drawing={"strokes": renamed})[0][0].startswith("intersection with nothing")
+    ball, post = proof["items"]
+    for rows in ([], [[*row[:4], row[4] + 0.1] for row in ball["isophotes"]], [[0, 0, 1, 0, 0.4]]):
+        wrong, _ = told_of(ball_files, proof={"items": [{**ball, "isophotes": rows}, post]})
+        assert any(line.startswith("on no surface, or no such line of it") for line in wrong)
+
+
+def test_parts_beyond_a_segment_stand_for_nothing(ball_files):
+    """One row that reaches far beyond its segment, instead of all rows."""
+    for low, high in ((0.0, 1e6), (-1.0, 2.0), (0.6, 0.4)):
+        rows = [[*row[:2], low, high, *row[4:]] for row in ball_files[1]["on_surfaces"]]
+        wrong, _ = told_of(ball_files, proof={"on_surfaces": rows})
+        assert any(line.startswith("on no surface") for line in wrong)
+
+
+def test_strokes_of_one_item_are_not_on_another(ball_files):
+    """A ball of the same shape as the one that the strokes are of, which has another name."""
+    ball, post = ball_files[1]["items"]
+    other = {**ball, "name": "TWIN"}
+    far = {**ball, "surfaces": [{**ball["surfaces"][0], "placement": [[1, 0, 0, 9], [0, 1, 0, 0], [0, 0, 1, 0]]}]}
+    rows = [[*row[:4], 1, *row[5:]] for row in ball_files[1]["on_surfaces"]]
+    wrong, _ = told_of(ball_files, proof={"items": [far, other, post], "on_surfaces": rows})
+    assert any(line.startswith("on no surface") for line in wrong)
+
+
+@pytest.mark.parametrize("formula", ["1/0", "10.0**1000", "(" * 300, "u +", "u**(1/0)", "9" * 5000])
+def test_formulas_that_are_none_are_one_line(tmp_path, capsys, ball_files, formula):
+    ball, post = ball_files[1]["items"]
+    surface = {**ball["surfaces"][0], "formulas": [formula, "u", "v"]}
+    proof = {**ball_files[1], "items": [{**ball, "surfaces": [surface]}, post]}
+    for name, content in (("drawing", ball_files[0]), ("proof", proof)):
+        (tmp_path / name).write_text(json.dumps(content))
+    main = runpy.run_path(str(CHECKER))["main"]
+    assert main([str(tmp_path / "drawing"), str(tmp_path / "proof")]) == 3
+    assert capsys.readouterr().err.startswith("cannot check: ")
+
+
+def test_what_is_taken_as_given_is_said(tmp_path, capsys, cube_files):
+    main = runpy.run_path(str(CHECKER))["main"]
+    item = {**cube_files[1]["items"][0], "hides": False}
+    for name, content in (("drawing", cube_files[0]), ("proof", {**cube_files[1], "items": [item]})):
+        (tmp_path / name).write_text(json.dumps(content))
+    main([str(tmp_path / "drawing"), str(tmp_path / "proof")])
+    said = capsys.readouterr().out
+    assert f"given: {item['name']} hides nothing" in said and "given: complete: boundary, contour, crease" in said
+    text = (tmp_path / "drawing").read_text()
+    (tmp_path / "drawing").write_text(text.replace('"strokes"', '"strokes": [], "strokes"', 1))
+    assert main([str(tmp_path / "drawing"), str(tmp_path / "proof")]) == 3
+    assert "a name stands twice" in capsys.readouterr().err
+
+
 # Surfaces by formulas: balls, rods, cones, rings and others.
 
 

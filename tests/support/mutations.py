@@ -53,7 +53,7 @@ SMOOTH = ("asymptotic_lines", "capped", "house", "mixed", "ruled", "slices", "to
 SMOOTH_SCALE = 16.0
 """Mutations of their drawings are so many times larger."""
 
-UNPROVED = ("isophote", "integral")
+UNPROVED = ("integral",)
 """Kinds of strokes on surfaces whose place along these is not proved."""
 
 SMOOTH_PAGE = "80x60"

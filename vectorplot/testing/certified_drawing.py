@@ -226,18 +226,26 @@ def isophote_beside(
     level = levels[np.abs(np.subtract.outer(0.5 * (at.low + at.high), levels)).argmin(axis=1)]
     page, size = formulas.steps(surface, view, np.repeat(middle, 2, axis=1))
     across = np.stack([0.5 * (one.low + one.high) for one in (by_u, by_v)], axis=1) / np.maximum(size, geo.LEAST) ** 2
+    along, far = 0.5 * np.abs(way), (page * np.abs(across)).sum(axis=1)
     # Beside contours a way on the page is a long one on the surface.
-    far = np.maximum((page * np.abs(across)).sum(axis=1), (size * np.abs(across)).sum(axis=1) / STEEP)
-    across *= 0.7 * reach / np.maximum(far, geo.LEAST)[:, None]
-    half = 0.5 * np.abs(way) + np.abs(across)
-    cells = np.stack([middle - half, middle + half], axis=2).reshape(-1, 4)
+    wide = across * (2.0 * reach / np.maximum(far, geo.LEAST))[:, None]
+    change = cosines(surface, light, around(middle, along + np.abs(wide)))[1:]
+    most = sum(one.size * step for one, step in zip(change, (along + np.abs(wide)).T, strict=True))
+    across *= (0.7 * reach / np.maximum(np.maximum(far, (size * np.abs(across)).sum(axis=1) / STEEP), geo.LEAST))[
+        :, None
+    ]
+    cells = around(middle, along + np.abs(across))
     _, by_u, by_v = cosines(surface, light, cells)
-    along = 0.5 * (by_u * way[:, 0] + by_v * way[:, 1]).size
-    most = along + by_u.size * np.abs(across[:, 0]) + by_v.size * np.abs(across[:, 1])
+    turn = 0.5 * (by_u * way[:, 0] + by_v * way[:, 1]).size
     less, more = (cosines(surface, light, np.repeat(middle + side * across, 2, axis=1))[0] for side in (-1.0, 1.0))
     good = (formulas.steps(surface, view, cells)[0] * np.abs(across)).sum(axis=1) <= reach
-    good &= (more.low - along > level) & (less.high + along < level)
+    good &= (more.low - turn > level) & (less.high + turn < level)
     return good, np.maximum(at.low - level, level - at.high) > most
+
+
+def around(middle: geo.Floats, half: geo.Floats) -> geo.Floats:
+    """(n,4) cells about places (n,2), half as large as (n,2)."""
+    return np.stack([middle - half, middle + half], axis=2).reshape(-1, 4)
 
 
 def limits_of(certificate: Any) -> Limits:

@@ -76,6 +76,14 @@ def unproved_kinds(drawing: Any, model: given.Model, shapes: given.Shapes) -> li
         drawn = (on & (model.item == shapes.names[one["name"]])).any()
         if one["smooth"] and not one["surfaces"] and (drawn or one["hides"]):
             said.append(f"what {one['name']} shows and hides, which has no formulas")
+    complete = {word for one in shapes.items for word in one["lines"]}
+    if shapes.items and not complete & {*given.EDGE_KINDS}:
+        said.append("that all lines of any kind are there")
+    said += [
+        f"that each {word} is there"
+        for word in given.EDGE_KINDS
+        if complete and (model.kind == word).any() and word not in complete
+    ]
     if model.hidden.any() and shapes.limits.gap is None:
         said.append("that all hidden lines are there")
     return said + [f"{key} of the drawing" for key in sorted({*drawing} - {*known, "strokes"}) if drawing[key]]
@@ -130,9 +138,10 @@ def check_places(model: given.Model, certificate: Any, shapes: given.Shapes) -> 
             items = shapes.item[lying.by]
             alone = geo.joined(geo.gaps(geo.take(lying, items != one), least) for one in np.unique(items))
             yield "intersection with nothing, of stroke", own, geo.united(alone, 0.0 * least), 1
-        doubt = np.flatnonzero(model.doubt[model.proved][model.kind[long.owner] == word])
-        whole = geo.Parts(doubt, 0.0 * doubt, 0.0 * doubt + 1.0, doubt)
-        yield "isophote that may be none, of stroke", own, whole, 2
+        if word == "isophote":
+            doubt = np.flatnonzero(model.doubt[model.proved][model.kind[long.owner] == word])
+            whole = geo.Parts(doubt, np.zeros(len(doubt)), np.ones(len(doubt)), doubt)
+            yield "isophote that may be none, of stroke", own, whole, 2
         if word == "section":
             planes = np.concatenate([geo.planes_in(shapes.view, one["planes"]) for one in shapes.items])
             bare = geo.gaps(geo.joined(geo.parts_in(own, planes)), least)
@@ -140,7 +149,10 @@ def check_places(model: given.Model, certificate: Any, shapes: given.Shapes) -> 
     twice = geo.joined(geo.parts_along(long, long, 0.1, 1.0))
     again = (twice.by < twice.line) & (twice.high - twice.low > long.least(ratio)[twice.line])
     again &= (long.slack[twice.line] < fine) | (long.owner[twice.line] != long.owner[twice.by])
-    again &= model.kind[long.owner[twice.line]] == model.kind[long.owner[twice.by]]
+    # Edges of meshes are of one kind each; of surfaces a contour may run beside a rim.
+    one, two = long.owner[twice.line], long.owner[twice.by]
+    edge = np.isin(model.kind, given.EDGE_KINDS) & ~model.lifted
+    again &= (model.kind[one] == model.kind[two]) | (edge[one] & edge[two])
     yield "drawn twice, of stroke", long, geo.take(twice, again), 0
 
 
@@ -216,14 +228,49 @@ def reaches(place: geo.Floats, which: geo.Bools, size: float) -> geo.Bools:
     return found
 
 
+def premises(certificate: Any) -> list[str]:
+    """What is taken from the certificate as it is, a line each: a drawing of another scene is proved by another one."""
+    items, limits = certificate["items"], given.limits_of(certificate)
+    (left, low), (right, high) = limits.window
+    said = [f"items: {len(items)}, in the window from ({left:g}, {low:g}) to ({right:g}, {high:g}) mm"]
+    smooth = f", {limits.fine:g} mm where there are surfaces" * any(one["surfaces"] for one in items)
+    said.append(f"left open: {limits.width:g} mm beside outlines{smooth}; creases turn by {limits.angle:g} degrees")
+    said += ["hidden lines are not drawn"] * (limits.gap is None)
+    kinds = sorted({word for one in items for word in one["lines"]})
+    said.append(f"complete: {', '.join(kinds) or 'no kind of line'}")
+    for one in items:
+        without = [word for word in kinds if word not in one["lines"]]
+        said += [f"{one['name']} hides nothing"] * (not one["hides"])
+        said += [f"not every {', '.join(without)} of {one['name']} need be drawn"] * bool(without)
+    return said
+
+
+def only_once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    """An object of JSON. Errors: ValueError for a name that stands in it twice."""
+    if len(dict(pairs)) < len(pairs):
+        raise ValueError("a name stands twice in an object")
+    return dict(pairs)
+
+
 def main(names: list[str]) -> int:
-    """Say what is wrong and what is not proven of a drawing; the exit status."""
+    """Say what is wrong and what is not proven of a drawing, and what is taken as given; the exit status."""
     try:
-        wrong, unproven, counts = check(*(json.loads(Path(name).read_bytes()) for name in names))
-    except (OSError, ValueError, KeyError, TypeError, IndexError, RecursionError) as error:
+        drawing, certificate = (json.loads(Path(name).read_bytes(), object_pairs_hook=only_once) for name in names)
+        wrong, unproven, counts = check(drawing, certificate)
+        told = [f"given: {line}" for line in premises(certificate)]
+    except (
+        ArithmeticError,
+        LookupError,
+        MemoryError,
+        OSError,
+        RecursionError,
+        SyntaxError,
+        TypeError,
+        ValueError,
+    ) as error:
         sys.stderr.write(f"cannot check: {type(error).__name__}: {error}; expected drawing.json certificate.json\n")
         return 3
-    told = [*(f"wrong: {line}" for line in wrong), *(f"not proven: {line}" for line in unproven)]
+    told = [*(f"wrong: {line}" for line in wrong), *(f"not proven: {line}" for line in unproven), *told]
     told.append(", ".join(f"{number} {name}" for name, number in counts.items()))
     sys.stdout.write("\n".join(told) + "\n")
     return 1 if wrong else 2 if unproven else 0
