@@ -543,7 +543,8 @@ def _on_surfaces(strokes: list[Any], items: list[Any], shapes: drawn.Shapes) -> 
             patches = [patch for _, patch in shapes.patches[first : first + len(item["surfaces"])]]
             ways = [np.array([*strokes[k]["points3d"], *strokes[k]["points3d"][: strokes[k]["closed"]]]) for k in own]
             values = [item["parameters"] if strokes[k]["kind"] == "parameter" else [[], []] for k in own]
-            pieces = _pieces(own, ways, values, patches, shapes.view, shapes.limits.fine)
+            cut = [strokes[k]["kind"] == "section" for k in own]
+            pieces = _pieces(own, ways, values, (cut, item["planes"]), patches, shapes.view, shapes.limits.fine)
             pieces[:, 4] += first
             found.append(pieces)
         first += len(item["surfaces"])
@@ -552,17 +553,27 @@ def _on_surfaces(strokes: list[Any], items: list[Any], shapes: drawn.Shapes) -> 
 
 
 def _pieces(
-    own: list[int], ways: list[Floats], values: list[Any], patches: list[shapes.Patch], rows: Floats, slack: float
+    own: list[int],
+    ways: list[Floats],
+    values: list[Any],
+    sections: tuple[list[bool], list[list[float]]],
+    patches: list[shapes.Patch],
+    rows: Floats,
+    slack: float,
 ) -> Floats:
     """(n,9) such rows of strokes by their numbers and points in the world, on patches of one item; values: those of u
-    and of v on one of which a stroke runs, if it is a parameter line."""
+    and of v on one of which a stroke runs, if it is a parameter line; sections: which strokes are some, of what planes,
+    rows of normal and offset."""
     points, count = np.concatenate(ways), np.array([len(way) for way in ways])
     stroke = np.repeat(np.arange(len(own)), count)
     begin = np.flatnonzero(stroke[:-1] == stroke[1:])
     names = np.stack([np.array(own)[stroke[begin]], begin - (np.cumsum(count) - count)[stroke[begin]]], axis=1)
     on = [_feet(patch, points, rows) for patch in patches]
     page = points_on(rows, points)[:, :2]
+    cut = np.flatnonzero(np.array(sections[0], dtype=np.bool_)[stroke])
     for patch, (feet, _) in zip(patches, on, strict=True):
+        if len(cut) and len(sections[1]):
+            feet[cut] = feet_in_planes(patch, feet[cut], points[cut], np.array(sections[1]))
         held = np.zeros(feet.shape, dtype=np.bool_)
         for number, lines in enumerate(values):
             _snap(feet, held, np.flatnonzero(stroke == number), lines)
@@ -626,6 +637,25 @@ def _snap(feet: Floats, held: Bools, which: Ints, lines: list[list[float]]) -> N
         feet[which[near], chosen[0]] = chosen[1]
         held[which[near], chosen[0]] = True
 
+
+def feet_in_planes(patch: shapes.Patch, feet: Floats, points: Floats, planes: Floats) -> Floats:
+    """(n,2) u and v near given ones, where a surface is nearest to points (n,3) within the planes (p,4) these are in.
+
+    Ends of dashes are on chords: what is nearest to them in space, or below them on the page, is beside the plane."""
+    normals = planes[:, :3] / np.sqrt((planes[:, :3] ** 2).sum(axis=1))[:, None]
+    offsets = planes[:, 3] / np.sqrt((planes[:, :3] ** 2).sum(axis=1))
+    nearest = np.abs((points[:, None] * normals).sum(axis=2) - offsets).argmin(axis=1)
+    feet = feet.copy()
+    for number in np.unique(nearest).tolist():
+        which, stretch = nearest == number, np.eye(4)
+        # Ways across the plane count so many times.
+        stretch[:3, :3] += (_ACROSS - 1.0) * np.multiply.outer(normals[number], normals[number])
+        feet[which] = _stepped(patch, stretch, feet[which], points_on(stretch, points[which]), (False, False))
+    return feet
+
+
+_ACROSS = 30.0
+"""Points of sections are so many times nearer to their planes than to points of chords."""
 
 _ON_LINE = 1e-2
 """Vertices of parameter lines are no farther from these, in u and v."""
