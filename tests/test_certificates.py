@@ -475,6 +475,11 @@ def test_what_is_taken_as_given_is_said(tmp_path, capsys, cube_files):
     main([str(tmp_path / "drawing"), str(tmp_path / "proof")])
     said = capsys.readouterr().out
     assert f"given: {item['name']} hides nothing" in said and "given: complete: boundary, contour, crease" in said
+    bent = [{**one, "directions": [0.0, 0.0]} for one in cube_files[0]["strokes"]]
+    (tmp_path / "drawing").write_text(json.dumps({**cube_files[0], "strokes": bent}))
+    main([str(tmp_path / "drawing"), str(tmp_path / "proof")])
+    assert "strokes are straight between their points, whatever directions" in capsys.readouterr().out
+    assert main(["--help"]) == 0 and "exit status" in capsys.readouterr().out
     text = (tmp_path / "drawing").read_text()
     (tmp_path / "drawing").write_text(text.replace('"strokes"', '"strokes": [], "strokes"', 1))
     assert main([str(tmp_path / "drawing"), str(tmp_path / "proof")]) == 3

@@ -205,7 +205,9 @@ def isophotes(
     if not len(table) or not len(ends) or (table[:, :4] != table[0, :4]).any():
         return proved, ~refuted
     of, pieces = np.arange(len(ends)), ends
-    for _ in range(ROUNDS):
+    for number in range(ROUNDS):
+        if number and len(pieces) > formulas.CHUNK:
+            break
         joints = (
             pieces[:, None, :2] + np.linspace(0.0, 1.0, SHARES + 1)[:, None] * (pieces[:, 2:] - pieces[:, :2])[:, None]
         )

@@ -228,7 +228,11 @@ def reaches(place: geo.Floats, which: geo.Bools, size: float) -> geo.Bools:
     return found
 
 
-def premises(certificate: Any) -> list[str]:
+LOOKED_AT = {"kind", "item", "hidden_by", "points", "points3d", "closed"}
+"""What is compared of a stroke, which is straight between its points."""
+
+
+def premises(drawing: Any, certificate: Any) -> list[str]:
     """What is taken from the certificate as it is, a line each: a drawing of another scene is proved by another one."""
     items, limits = certificate["items"], given.limits_of(certificate)
     (left, low), (right, high) = limits.window
@@ -242,7 +246,8 @@ def premises(certificate: Any) -> list[str]:
         without = [word for word in kinds if word not in one["lines"]]
         said += [f"{one['name']} hides nothing"] * (not one["hides"])
         said += [f"not every {', '.join(without)} of {one['name']} need be drawn"] * bool(without)
-    return said
+    more = sorted({key for stroke in drawing["strokes"] for key in stroke} - LOOKED_AT)
+    return said + [f"strokes are straight between their points, whatever {', '.join(more)} of them say"] * bool(more)
 
 
 def only_once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
@@ -254,10 +259,16 @@ def only_once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
 
 def main(names: list[str]) -> int:
     """Say what is wrong and what is not proven of a drawing, and what is taken as given; the exit status."""
+    if names == ["--help"]:
+        sys.stdout.write(str(__doc__))
+        return 0
+    if len(names) != 2:
+        sys.stderr.write(f"cannot check: expected drawing.json certificate.json, got {len(names)} names\n")
+        return 3
     try:
         drawing, certificate = (json.loads(Path(name).read_bytes(), object_pairs_hook=only_once) for name in names)
         wrong, unproven, counts = check(drawing, certificate)
-        told = [f"given: {line}" for line in premises(certificate)]
+        told = [f"given: {line}" for line in premises(drawing, certificate)]
     except (
         ArithmeticError,
         LookupError,
