@@ -214,7 +214,8 @@ def isophotes(
         pieces, of = np.concatenate([joints[:, :-1], joints[:, 1:]], axis=2).reshape(-1, 4), np.repeat(of, SHARES)
         good, none = isophote_beside(surface, table[0, :4], table[:, 4], pieces, view, reach)
         refuted[of[none]] = True
-        of, pieces = of[~good & ~none], pieces[~good & ~none]
+        open_ = ~good & ~refuted[of]
+        of, pieces = of[open_], pieces[open_]
     proved[np.setdiff1d(np.arange(len(ends)), of)] = True
     return proved & ~refuted, refuted
 
