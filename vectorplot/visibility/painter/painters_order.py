@@ -491,12 +491,17 @@ def overlapping_pairs(faces: ImageFaces, some: Ints, tolerance: float) -> tuple[
     outlines = Outlines.of(faces.points, faces.offsets, tolerance)
     found = [np.zeros((2, 0), dtype=np.intp)]
     count, known = 0, len(some)
+    turn = np.full(len(faces), len(some))
+    turn[some] = np.arange(len(some))
     for number, other in boxes_over(faces.box[:, some], faces.box, tolerance):
+        first = int(number[0])
+        # Each pair once, when the first of both has its turn.
+        fresh = turn[other] > number
+        number, other = number[fresh], other[fresh]
         pair = np.stack([np.minimum(some[number], other), np.maximum(some[number], other)])
-        pair = pair[:, pair[0] < pair[1]]
         count += pair.shape[1]
         if count > max(MOST_OVERLAPS * len(faces), FEW_OVERLAPS):
-            known = int(number[0])
+            known = first
             break
         found.append(pair[:, overlapping(outlines, pair[0], pair[1], tolerance)])
     before, after = np.concatenate(found, axis=1)
