@@ -188,3 +188,12 @@ def test_strokes_are_divided_at_a_ring():
         for some in (inner, outer)
     ]
     assert lengths[0] == pytest.approx([2.0, 1.0, 1.0]) and lengths[1] == pytest.approx([2.0, 2.0, 6.0, 6.0])
+
+
+@pytest.mark.parametrize(("section", "marks"), [("y=25", False), ("y=4", True)])
+def test_a_section_has_no_centre_marks_of_what_it_takes_away(section, marks):
+    base = prism([(0, 0, 0), (60, 0, 0), (60, 50, 0), (0, 50, 0)], (0, 0, 12))
+    hole = regular_polygon(48, 6, centre=(30, 0, 30), normal=(0, 1, 0))
+    ear = prism([(20, 0, 20), (40, 0, 20), (40, 0, 40), (20, 0, 40)], (0, 10, 0), holes=[hole])
+    sheet = vp.technical_sheet([base, ear], views="top", section=section, centre_lines=True)
+    assert any(name.startswith("centre mark") for name, _ in strokes_of(sheet, "centre")) == marks

@@ -157,12 +157,25 @@ class _Part:
         return {name: [] for name in self.names} | notes
 
     def centre_lines_in(self, section: SheetSection, extent: float) -> list[Annotation]:
-        """The centre lines that a section shows: those in its planes, and the marks of circles along it."""
+        """The centre lines that a section shows: those in its planes, and the marks of circles behind these."""
         camera = camera_of(section.like, self.scene)
         square = [one for one in self.annotations if one.is_in_every_view and one.is_square_to(camera, extent)]
-        off = [float(section.offset_near(one.points).max()) for one in square]
         zero = SAME_PLANE_OF_EXTENT * extent
-        return [one for one, far in zip(square, off, strict=True) if one.is_mark or far <= zero]
+        marks = [one.is_mark and self._is_behind(one, section, camera, zero) for one in square]
+        off = [float(section.offset_near(one.points).max()) for one in square]
+        return [one for one, kept, far in zip(square, marks, off, strict=True) if kept or far <= zero]
+
+    def _is_behind(self, mark: Annotation, section: SheetSection, camera: Camera, zero: float) -> bool:
+        """Whether a section leaves something of the circles along the axis of a centre mark."""
+        axis, centre = section.axis, mark.points.mean(axis=0)
+        offset = section.zone_at(centre).offset
+        if offset is None or section.hinge is not None:
+            return True
+        along = [edge.centre for edge in self.edges if edge.axis == axis]
+        same = [place for place in along if float(np.abs(np.delete(centre - place, axis)).max()) <= zero]
+        places = [float(centre[axis]), *(place[axis] for place in same)]
+        towards = float(camera.axes[2, axis])
+        return min(towards * (place - offset) for place in places) <= zero
 
     def reach(self, camera: Camera, scenes: Iterable[Scene]) -> Floats:
         """(2,2) how far scenes reach from the middle of the part across a view, in the world."""
