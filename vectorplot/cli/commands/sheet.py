@@ -47,7 +47,10 @@ def _name_of_mesh(path: str) -> str:
     return Path(path).stem if Path(path).suffix.lower() in (*MESH_SUFFIXES, *CAD_SUFFIXES) else ""
 
 
-_OF_ASSEMBLY = {"title": None, "section": (), "detail_view": (), "breakout": (), "balloons": False, "parts_list": False}
+_OF_ASSEMBLY: dict[str, Any] = {
+    **{"title": None, "section": (), "detail_view": (), "breakout": (), "interrupted": ()},
+    **{"balloons": False, "parts_list": False},
+}
 """What the sheets of parts have not, as that of the whole has."""
 
 
@@ -113,6 +116,12 @@ def _field(text: str) -> tuple[str, str]:
         multiple=True,
         metavar="VIEW:X,Y,Z,R",
         help="A local section through a point, in a circle of a view; repeat it for more.",
+    ),
+    click.option(
+        "--interrupted",
+        multiple=True,
+        metavar="AXIS=FROM..TO",
+        help="What is left out of a long part, as x=40..160, with break lines; repeat it for more.",
     ),
     click.option("--dimensions", is_flag=True, help="How long the part is along x, y and z."),
     click.option("--centre-lines", is_flag=True, help="Of bores, shafts and other round edges of meshes."),
