@@ -36,6 +36,7 @@ from vectorplot.io.scene_statements import (
     read_measures,
     read_page,
     read_scale_bar,
+    read_sheet,
 )
 from vectorplot.io.scene_words import ANNOTATION_WORDS, SCENE_WORDS, Words
 from vectorplot.scene.annotations import label_anchors
@@ -245,6 +246,9 @@ class _Reader(ItemReader):
         elif word == "measures":
             measures, self.at = read_measures(source, self.at)
             self.settings = replace(now, measures=measures)
+        elif word == "sheet":
+            sheet, self.at = read_sheet(source, self.at, self.files)
+            self.settings = replace(now, sheet=sheet)
         elif word == "explode":
             self.moves += [self.at] if self.words[self.at + 1].startswith('"') else []
             explosion, self.at = read_explosion(source, self.at, now.explosion)

@@ -83,7 +83,7 @@ from vectorplot.pictures.sheet_views import (
 from vectorplot.scene.annotations import annotation_points, only_annotations
 from vectorplot.scene.exploded import shown_apart
 from vectorplot.scene.labels import Along, AtVertex, Measures, OnCurve
-from vectorplot.scene.page import MM_PER_INCH, Page
+from vectorplot.scene.page import MM_PER_INCH, Page, SheetSettings
 from vectorplot.scene.placement import camera_of, page_of
 from vectorplot.scene.scene import Scene, together
 from vectorplot.scene.surface_lines import NO_LINES
@@ -575,34 +575,34 @@ def _of_strokes(drawing: Drawing, kept: Callable[[Paths], Paths]) -> Drawing:
 def technical_sheet(
     scene: object,
     *,
-    views: str | Iterable[str] = "front,top,left,iso",
+    views: str | Iterable[str] | None = None,
     up: Point | None = None,
-    scale: str = "fit",
-    unit: str = "mm",
-    standard: Literal["iso", "asme"] = "iso",
+    scale: str | None = None,
+    unit: str | None = None,
+    standard: Literal["iso", "asme"] | None = None,
     measured_in: str | None = None,
     decimals: int | None = None,
     zeros: bool | None = None,
     comma: bool | None = None,
     projection: Literal["first", "third"] | None = None,
     page: Page | str | None = None,
-    section: str | Iterable[str] = (),
+    section: str | Iterable[str] | None = None,
     cut_spacing_mm: float | None = None,
-    detail_view: str | Iterable[str] = (),
-    breakout: str | Iterable[str] = (),
-    interrupted: str | Iterable[str] = (),
-    dimensions: bool = False,
-    centre_lines: bool = False,
-    frame: bool = False,
-    block: bool = True,
+    detail_view: str | Iterable[str] | None = None,
+    breakout: str | Iterable[str] | None = None,
+    interrupted: str | Iterable[str] | None = None,
+    dimensions: bool | None = None,
+    centre_lines: bool | None = None,
+    frame: bool | None = None,
+    block: bool | None = None,
     title: str | None = None,
-    author: str = "",
-    date: str = "",
+    author: str | None = None,
+    date: str | None = None,
     sheet: str = "1",
     fields: Mapping[str, str] | None = None,
     block_template: str | os.PathLike[str] | None = None,
-    balloons: bool = False,
-    parts_list: bool = False,
+    balloons: bool | None = None,
+    parts_list: bool | None = None,
     text: Literal["strokes", "real"] = "strokes",
     crease_angle_deg: float = 25.0,
     shortest_mm: float | None = None,
@@ -610,6 +610,8 @@ def technical_sheet(
     explain: Callable[[StageReport], None] | None = None,
 ) -> Drawing:
     """Main views of a part in line with each other on one sheet, at one exact scale, hidden lines dashed.
+
+    What is None is as the scene says (`Scene.sheet`), or else as is usual.
 
     Parameters
     ----------
@@ -722,49 +724,75 @@ def technical_sheet(
     >>> sheet.width_mm, sheet.height_mm, sheet.title
     (297.0, 210.0, 'Corner, 1:1')
     """
-    names = _view_names(views)
-    check_word("standard", standard, STANDARDS)
+    shown = shown_apart(scene_of(scene))
+    of_scene = shown.sheet or SheetSettings()
+    asked = SheetSettings(
+        views=_texts(views, ","),
+        scale=scale,
+        unit=unit,
+        standard=standard,
+        measured_in=measured_in,
+        projection=projection,
+        section=_texts(section),
+        detail_view=_texts(detail_view),
+        breakout=_texts(breakout),
+        interrupted=_texts(interrupted),
+        dimensions=dimensions,
+        centre_lines=centre_lines,
+        frame=frame,
+        block=block,
+        author=author,
+        date=date,
+        fields=tuple({**dict(of_scene.fields or ()), **(fields or {})}.items()),
+        block_template=None if block_template is None else os.fspath(block_template),
+        balloons=balloons,
+        parts_list=parts_list,
+    )
+    told = asked.or_else(of_scene).or_else(USUAL)
+    names = _view_names(told.views or ())
+    check_word("standard", told.standard, STANDARDS)
     check_word("text", text, TEXT_WORDS)
-    usual = STANDARDS[standard]
-    projection = projection or usual.projection
-    check_word("projection", projection, ("first", "third"))
-    page = page or usual.page
-    check_word("unit", unit, MM_PER)
-    written_unit = measured_in or "mm"
+    usual = STANDARDS[str(told.standard)]
+    way = told.projection or usual.projection
+    check_word("projection", way, ("first", "third"))
+    page = page or of_scene.page or usual.page
+    check_word("unit", told.unit, MM_PER)
+    written_unit = told.measured_in or "mm"
     check_word("measured_in", written_unit, MM_PER)
-    asked = None if scale == "fit" else DrawingScale.of(scale)
-    given = shown_apart(scene_of(scene))
-    given = given if unit == "mm" else given.scaled(MM_PER[unit])
+    wanted_scale = None if told.scale == "fit" else DrawingScale.of(str(told.scale))
+    per_unit = MM_PER[str(told.unit)]
+    given = shown if per_unit == 1.0 else shown.scaled(per_unit)
     # Sheets have pens of their own.
     given = replace(given if up is None else stood_up(given, up), inks=None)
     given = replace(given, measures=_measures(given.measures, usual, written_unit, decimals, zeros, comma))
     solid, annotations = without_annotations(given)
     edges: tuple[RoundEdge, ...] = ()
-    if centre_lines or any(one.may_be_of_circle for one in annotations):
+    if told.centre_lines or any(one.may_be_of_circle for one in annotations):
         edges = _round_edges(solid, crease_angle_deg)
-    left_out = Interruptions.of(interrupted, solid.bounds)
-    if centre_lines and edges:
+    left_out = Interruptions.of(told.interrupted or (), solid.bounds)
+    if told.centre_lines and edges:
         # Without its gaps.
         extent = float(np.ptp(left_out.moved(given.bounds, math.inf), axis=0).max())
         solid, annotations = without_annotations(together([given, *centre_lines_of(edges, extent)]))
     cameras = tuple(camera_of(name, solid) for name in names)
-    overall = overall_dimensions(names, solid.bounds) if dimensions else ()
-    sections = sections_of(section, names, solid.bounds)
+    overall = overall_dimensions(names, solid.bounds) if told.dimensions else ()
+    sections = sections_of(told.section or (), names, solid.bounds)
     circled = (*names, *(one.letter for one in sections))
-    texts = [detail_view] if isinstance(detail_view, str) else list(detail_view)
+    texts = told.detail_view or ()
     letters = LETTERS[len(sections) :]
     if len(texts) > len(letters):
         raise InputError(f"{len(sections)} sections and {len(texts)} details: expected at most {len(LETTERS)}")
     details = tuple(ViewCircle.of(text, "detail", circled, one) for text, one in zip(texts, letters, strict=False))
-    opened = [breakout] if isinstance(breakout, str) else list(breakout)
-    breakouts = tuple(ViewCircle.of(text, "breakout", [name for name in names if name != "iso"]) for text in opened)
+    breakouts = tuple(
+        ViewCircle.of(text, "breakout", [name for name in names if name != "iso"]) for text in told.breakout or ()
+    )
     for what, place in [
         *((f"detail {one.letter}", one.centre) for one in details),
         *(("breakout", one.centre) for one in breakouts),
     ]:
         left_out.check_shown(np.array([place]), what)
     _check_sections(sections, left_out)
-    listed = parts_of(solid) if balloons or parts_list else ()
+    listed = parts_of(solid) if told.balloons or told.parts_list else ()
     part = _Part(
         solid,
         annotations,
@@ -776,28 +804,37 @@ def technical_sheet(
         details,
         breakouts,
         usual.level,
-        listed if balloons else (),
+        listed if told.balloons else (),
         left_out,
     )
-    given_page, first = page, projection == "first"
+    given_page, first = page, way == "first"
     size = page.strip().split()[0].upper() if isinstance(page, str) else f"{page.width_mm:g}x{page.height_mm:g}"
     said = given.title if title is None else title
-    known = {"title": said, "author": author, "date": date, "sheet": sheet, "unit": written_unit, "size": size}
-    template = BLOCK if block_template is None else read_template(block_template)
-    rows = [(str(k), str(len(one.pieces)), one.name) for k, one in enumerate(listed, start=1)] if parts_list else []
-    words = TitleBlock(known, projection, dict(fields or {}), template, tuple(rows))
-    taken = np.array(words.size_mm if block else (0.0, 0.0))
+    known = {
+        "title": said,
+        "author": told.author or "",
+        "date": told.date or "",
+        "sheet": sheet,
+        "unit": written_unit,
+        "size": size,
+    }
+    template = BLOCK if told.block_template is None else read_template(told.block_template)
+    rows = (
+        [(str(k), str(len(one.pieces)), one.name) for k, one in enumerate(listed, start=1)] if told.parts_list else []
+    )
+    words = TitleBlock(known, way, dict(told.fields or ()), template, tuple(rows))
+    taken = np.array(words.size_mm if told.block else (0.0, 0.0))
 
     def room(views: Sequence[SheetView], allowed: StandardScales) -> tuple[Page, Arrangement]:
-        return roomiest(given_page, views, frame, first, taken, allowed)
+        return roomiest(given_page, views, bool(told.frame), first, taken, allowed)
 
-    paper, arranged, chosen = _arranged(part, StandardScales(usual.steps, asked), room)
+    paper, arranged, chosen = _arranged(part, StandardScales(usual.steps, wanted_scale), room)
     factor = chosen.factor
     words = replace(words, words={**known, "scale": str(chosen)})
     plain = LETTERS_OF[text].plain
     # A title that nobody asked for here may be too long, or in letters without strokes.
     written_in = words.layers_titled_if_possible if title is None else words.layers
-    layers = written_in(drawing_space(paper, frame), plain) if block else ()
+    layers = written_in(drawing_space(paper, bool(told.frame)), plain) if told.block else ()
     done = Sheet(paper, f"{said}, {chosen}" if said else str(chosen))
     notes = part.notes(factor)
     _tell_left_out(annotations, notes.values())
@@ -824,11 +861,11 @@ def technical_sheet(
         corner = (x - 0.5 * drawn.width_mm, y - 0.5 * drawn.height_mm)
         written[view.name] = written_on(drawn) + corner
         done = done.place(drawn, *corner)
-        if balloons and view.name == part.balloons_in:
+        if told.balloons and view.name == part.balloons_in:
             moved = Sheet(paper).place(drawn, *corner).drawing()
             around += balloon_layers(listed, moved, view.reach_mm(factor) - [BALLOONS_ROOM_MM, 0.0], (x, y), plain)
     around += _around(part, placed, factor, written, done.drawing(), plain)
-    borders = (*(frame_layers(paper, plain, (taken[0], taken[1])) if frame else ()), *layers)
+    borders = (*(frame_layers(paper, plain, (taken[0], taken[1])) if told.frame else ()), *layers)
     return done.place(Drawing(paper.width_mm, paper.height_mm, (*around, *borders), ()), 0.0, 0.0).drawing()
 
 
@@ -882,6 +919,10 @@ def _around(
         middle = np.array(place) + part.on_page(view.camera, one.centre, factor)
         found += one.layers(middle, factor * one.radius, lines, plain)
     return tuple(found)
+
+
+USUAL = SheetSettings(views=("front", "top", "left", "iso"), scale="fit", unit="mm", standard="iso", block=True)
+"""What sheets are like where nothing else is said."""
 
 
 @dataclass(frozen=True)
@@ -955,8 +996,17 @@ def _round_edges(scene: Scene, crease_angle_deg: float) -> tuple[RoundEdge, ...]
     return tuple(edge for mesh in meshes for edge in round_edges(mesh, crease_angle_deg))
 
 
-def _view_names(views: str | Iterable[str]) -> tuple[str, ...]:
-    names = tuple(word.strip() for word in (views.split(",") if isinstance(views, str) else views))
+def _texts(given: str | Iterable[str] | None, between: str = "") -> tuple[str, ...] | None:
+    """Texts that are one, with signs between them if there are such, or several."""
+    if given is None:
+        return None
+    if not isinstance(given, str):
+        return tuple(given)
+    return tuple(given.split(between)) if between else (given,)
+
+
+def _view_names(views: Iterable[str]) -> tuple[str, ...]:
+    names = tuple(word.strip() for word in views)
     for name in names:
         if name not in VIEWS:
             raise unknown("view", name, VIEWS)
