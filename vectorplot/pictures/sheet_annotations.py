@@ -217,7 +217,7 @@ class Annotation:
 
     def before(self, camera: Camera, bounds: Floats) -> Scene:
         """It where nothing within bounds (2,3) hides it from a view, at the same place in its picture."""
-        if self.name.startswith("threaded hole"):
+        if self.name.startswith(("threaded hole", "thread arc")):
             return self.scene
         back = camera.axes[2]
         nearest = float(matmul(bounds.mean(axis=0), back) + matmul(0.5 * np.ptp(bounds, axis=0), np.abs(back)))
