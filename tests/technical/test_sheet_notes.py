@@ -252,3 +252,20 @@ def test_fields_of_the_command_are_beside_those_of_the_scene(tmp_path):
 def test_sheets_of_scenes_that_cannot_be(said, cause):
     with pytest.raises(vp.InputError, match=cause):
         parse_scene(f"PART box 4 2 1\n{said}")
+
+
+def test_materials_are_a_column_of_the_list_and_a_field_of_each_part(tmp_path):
+    text = 'A box 4 2 1\nB box 1 1 1 translation 0 0 1\nsheet views iso parts_list made_of "A" "S235"'
+    sheet = vp.technical_sheet(parse_scene(text), made_of={"B": "brass"}, text="real")
+    assert {"MATERIAL", "S235", "brass"} <= set(words_of(sheet))
+    assert "MATERIAL" not in words_of(vp.technical_sheet(parse_scene(text.partition("made_of")[0]), text="real"))
+    with pytest.raises(vp.InputError, match="made of: part 'C': expected one of A, B"):
+        vp.technical_sheet(parse_scene(text), made_of={"C": "gold"})
+    (tmp_path / "two.scene").write_text(text, encoding="utf-8")
+    out = tmp_path / "two.pdf"
+    assert run(["sheet", str(tmp_path / "two.scene"), "-o", str(out), "--each-part", "--text", "real"]) == 0
+    pages = [
+        subprocess.run(["pdftotext", "-f", page, "-l", page, str(out), "-"], capture_output=True, check=True).stdout
+        for page in "23"
+    ]
+    assert b"S235" in pages[0] and b"S235" not in pages[1]

@@ -277,7 +277,8 @@ _SHEET_CHOICES = {
     "unit": ("mm", "cm", "m", "in"),
     "measured_in": ("mm", "cm", "m", "in"),
 }
-_SHEET_OTHERS = ("views", "scale", "page", "field", "block_template")
+_SHEET_PAIRS = {"field": "fields", "made_of": "made_of"}
+_SHEET_OTHERS = ("views", "scale", "page", *_SHEET_PAIRS, "block_template")
 _SHEET_WORDS = (*SHEET_FLAGS, *SHEET_TEXTS, *_SHEET_LINES, *_SHEET_CHOICES, *_SHEET_OTHERS)
 
 
@@ -289,7 +290,7 @@ def read_sheet(words: Words, at: int, files: NamedFiles | None) -> tuple[SheetSe
     while (word := words.words[at]) in _SHEET_WORDS:
         at += 1
         if word in given or (word == "no_block" and "block" in given):
-            if word not in SHEET_TEXTS:
+            if word not in (*SHEET_TEXTS, *_SHEET_PAIRS):
                 words.fail(at - 1, f"{owner}a second '{word}'")
         if word in SHEET_FLAGS:
             given["block" if word == "no_block" else word] = word != "no_block"
@@ -299,9 +300,9 @@ def read_sheet(words: Words, at: int, files: NamedFiles | None) -> tuple[SheetSe
             given[word], at = _sheet_text(words, at, word), at + 1
         elif word in _SHEET_CHOICES:
             given[word], at = _one_of(words, at, owner + word, _SHEET_CHOICES[word]), at + 1
-        elif word == "field":
-            pair = (_sheet_text(words, at, "the name of a field"), _sheet_text(words, at + 1, "a field"))
-            given["fields"], at = (*given.get("fields", ()), pair), at + 2
+        elif word in _SHEET_PAIRS:
+            key, pair = _SHEET_PAIRS[word], (_sheet_text(words, at, word), _sheet_text(words, at + 1, word))
+            given[key], at = (*given.get(key, ()), pair), at + 2
         elif word == "block_template":
             if files is None:
                 words.fail(at, f"{owner}a text without a file names no files")
@@ -354,8 +355,9 @@ def sheet_text(sheet: SheetSettings) -> str:
     for name, value in sheet.said.items():
         if name in SHEET_TEXTS:
             parts += [f"{name} {dumps(text)}" for text in value]
-        elif name == "fields":
-            parts += [f"field {dumps(one)} {dumps(text)}" for one, text in value]
+        elif name in _SHEET_PAIRS.values():
+            word = next(word for word, key in _SHEET_PAIRS.items() if key == name)
+            parts += [f"{word} {dumps(one)} {dumps(text)}" for one, text in value]
         elif name == "views":
             parts.append(f"views {', '.join(value)}")
         elif name == "block":

@@ -603,6 +603,7 @@ def technical_sheet(
     block_template: str | os.PathLike[str] | None = None,
     balloons: bool | None = None,
     parts_list: bool | None = None,
+    made_of: Mapping[str, str] | None = None,
     text: Literal["strokes", "real"] = "strokes",
     crease_angle_deg: float = 25.0,
     shortest_mm: float | None = None,
@@ -680,6 +681,8 @@ def technical_sheet(
     parts_list : bool
         A list of these parts stands on the title block, with how many there are of each: items of one group are one
         part, those whose names differ by a number at the end and that have one shape are the same.
+    made_of : mapping of str to str, optional
+        The materials of parts, by their names: a column of that list.
     text : {"strokes", "real"}
         See draw.
     crease_angle_deg : float
@@ -744,6 +747,7 @@ def technical_sheet(
         author=author,
         date=date,
         fields=tuple({**dict(of_scene.fields or ()), **(fields or {})}.items()),
+        made_of=tuple({**dict(of_scene.made_of or ()), **(made_of or {})}.items()),
         block_template=None if block_template is None else os.fspath(block_template),
         balloons=balloons,
         parts_list=parts_list,
@@ -819,10 +823,8 @@ def technical_sheet(
         "size": size,
     }
     template = BLOCK if told.block_template is None else read_template(told.block_template)
-    rows = (
-        [(str(k), str(len(one.pieces)), one.name) for k, one in enumerate(listed, start=1)] if told.parts_list else []
-    )
-    words = TitleBlock(known, way, dict(told.fields or ()), template, tuple(rows))
+    rows = _rows_of_list(listed, dict(told.made_of or ())) if told.parts_list else ()
+    words = TitleBlock(known, way, dict(told.fields or ()), template, rows)
     taken = np.array(words.size_mm if told.block else (0.0, 0.0))
 
     def room(views: Sequence[SheetView], allowed: StandardScales) -> tuple[Page, Arrangement]:
@@ -960,6 +962,18 @@ def _measures(
         per_unit=1.0 / MM_PER[unit],
         leading=not inches,
     )
+
+
+def _rows_of_list(parts: Sequence[AssemblyPart], made_of: Mapping[str, str]) -> tuple[tuple[str, ...], ...]:
+    """Number, quantity and name of each part, and what it is made of if that is said of any.
+
+    Errors: InputError for what is said of no part."""
+    names = [one.name for one in parts]
+    for name in made_of:
+        if name not in names:
+            raise unknown("made of: part", name, names)
+    rows = [(str(k), str(len(one.pieces)), one.name) for k, one in enumerate(parts, start=1)]
+    return tuple((*row, made_of.get(row[2], "")) for row in rows) if made_of else tuple(rows)
 
 
 def _tell_left_out(annotations: Iterable[Annotation], notes: Iterable[Iterable[Annotation]]) -> None:

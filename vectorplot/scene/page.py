@@ -229,6 +229,8 @@ class SheetSettings:
         Letters in the title block.
     fields : tuple of (str, str), optional
         Names and texts of its free fields.
+    made_of : tuple of (str, str), optional
+        Names of parts, and their materials for the list of parts.
 
     Examples
     --------
@@ -255,6 +257,7 @@ class SheetSettings:
     author: str | None = None
     date: str | None = None
     fields: tuple[tuple[str, str], ...] | None = None
+    made_of: tuple[tuple[str, str], ...] | None = None
     block_template: str | None = None
     balloons: bool | None = None
     parts_list: bool | None = None

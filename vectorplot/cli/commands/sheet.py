@@ -165,6 +165,13 @@ def _lying(page: str | None, standard: str | None, said: SheetSettings) -> str:
         "--balloons/--no-balloons", default=None, help="Numbers of parts around the iso view, or the first one."
     ),
     click.option("--parts-list/--no-parts-list", default=None, help="A list of the parts on the title block."),
+    click.option(
+        "--made-of",
+        type=_field,
+        multiple=True,
+        metavar="PART=TEXT",
+        help="The material of a part, for that list, as BOLT=8.8; repeat it for more.",
+    ),
     click.option("--each-part", is_flag=True, help="Then a sheet of each part, all as the pages of one PDF."),
     EXPLODE,
     TEXT,
@@ -190,7 +197,7 @@ def sheet(scene_file: tuple[str, ...], out: str, format_: str | None, quiet: boo
     told |= {"cut_spacing_mm": told.pop("cut_spacing"), "title": told["title"] or None}
     # What is not said here the scene may say.
     told |= {name: told[name] or None for name in ("section", "detail_view", "breakout", "interrupted")}
-    told["fields"] = dict(told["fields"]) or None
+    told |= {name: dict(told[name]) or None for name in ("fields", "made_of")}
 
     apart, each_part = told.pop("explode"), told.pop("each_part")
     sources = [Source((one,), upright=upright) for one in scene_file]
@@ -205,7 +212,11 @@ def sheet(scene_file: tuple[str, ...], out: str, format_: str | None, quiet: boo
         usual = "1" if len(sources) == 1 else f"{number + 1}/{len(sources)}"
         said = usual if asked is None else asked
         of_part = each_part and number > 0
-        options = {**told, **_OF_ASSEMBLY} if of_part else dict(told)
+        options = dict(told)
+        if of_part:
+            made_of = {**dict((scene.sheet or SheetSettings()).made_of or ()), **(told["made_of"] or {})}
+            material = {"MATERIAL": made_of[scene.title]} if scene.title in made_of else {}
+            options |= {**_OF_ASSEMBLY, "fields": {**(told["fields"] or {}), **material}}
         if landscape:
             options["page"] = _lying(options["page"], options["standard"], scene.sheet or SheetSettings())
         shown = scene if of_part else moved_apart(scene, apart)
