@@ -251,3 +251,11 @@ def test_what_is_shown_of_an_interrupted_part_in_space_is_apart():
 def test_interruptions_that_cannot_be(told, cause):
     with pytest.raises(vp.InputError, match=cause):
         vp.technical_sheet(rod(), **told)
+
+
+def test_a_break_through_nothing_has_no_line():
+    ends = [vp.Item(f"end {k}", box((30, 10, 10)).moved(x, 0, 0)) for k, x in enumerate((0, 300))]
+    told = {"views": "front", "interrupted": "x=60..270", "scale": "1:1", "page": "A3", "block": False}
+    sheet = vp.technical_sheet(ends, **told)
+    assert layer(sheet, "thin") is None or not strokes_of(sheet, "thin")
+    assert np.ptp(outlines(sheet)[:, :, 0]) == pytest.approx(330 - 210 + 5)

@@ -540,7 +540,10 @@ def _break_lines(region: Any, bands: Sequence[_Band], across: Sequence[_Band], *
             ends = np.array([(place, side.low), (place, side.high)])
             line = shapely.intersection(region, shapely.LineString(ends if upright else ends[:, ::-1]))
             for part in shapely.get_parts(line):
-                low, high = np.sort(shapely.get_coordinates(part)[:, 1 if upright else 0])[[0, -1]].tolist()
+                along = shapely.get_coordinates(part)[:, 1 if upright else 0]
+                if len(along) < 2:
+                    continue
+                low, high = float(along.min()), float(along.max())
                 points = break_line(low + side.shift, high + side.shift) + np.array([place + band.shift, 0.0])
                 found.append(points if upright else points[:, ::-1])
     return found
