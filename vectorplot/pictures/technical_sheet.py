@@ -615,8 +615,6 @@ def technical_sheet(
 ) -> Drawing:
     """Main views of a part in line with each other on one sheet, at one exact scale, hidden lines dashed.
 
-    What is None is as the scene says (`Scene.sheet`), or else as is usual.
-
     Parameters
     ----------
     scene : Scene, path, Item, Mesh, surface, curve, or several of these
@@ -715,7 +713,8 @@ def technical_sheet(
 
     Notes
     -----
-    The isometric view is a projection at the same scale: edges along the axes are 0.816 times as long in it.
+    What is None is as the scene says (`Scene.sheet`), or else as is usual. The isometric view is a projection at the same
+    scale: edges along the axes are 0.816 times as long in it.
 
     Edge cases: a scene without extent is drawn 1:1.
 

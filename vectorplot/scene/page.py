@@ -219,11 +219,13 @@ class SheetSettings:
 
     Parameters
     ----------
-    views, section, detail_view, breakout, interrupted : tuple of str, optional
-        Main views, sections, details, local sections, and what is left out of long parts.
-    scale, unit, standard, measured_in, projection, page, block_template : str, optional
+    views : tuple of str, optional
+        Its main views.
+    scale, unit, standard, measured_in, projection, page : str, optional
         As the arguments of these names.
-    dimensions, centre_lines, frame, block, balloons, parts_list : bool, optional
+    section, detail_view, breakout, interrupted : tuple of str, optional
+        Sections, details, local sections, and what is left out of long parts.
+    dimensions, centre_lines, frame, block : bool, optional
         Whether it has them.
     author, date : str, optional
         Letters in the title block.
@@ -231,6 +233,10 @@ class SheetSettings:
         Names and texts of its free fields.
     made_of : tuple of (str, str), optional
         Names of parts, and their materials for the list of parts.
+    block_template : str, optional
+        The file of the title block.
+    balloons, parts_list : bool, optional
+        Whether it has them.
 
     Examples
     --------
