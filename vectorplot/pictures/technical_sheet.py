@@ -713,8 +713,8 @@ def technical_sheet(
 
     Notes
     -----
-    What is None is as the scene says (`Scene.sheet`), or else as is usual. The isometric view is a projection at the same
-    scale: edges along the axes are 0.816 times as long in it.
+    What is None is as the scene says (`Scene.sheet`), or else as is usual. The isometric view is a projection at the
+    same scale: edges along the axes are 0.816 times as long in it.
 
     Edge cases: a scene without extent is drawn 1:1.
 
