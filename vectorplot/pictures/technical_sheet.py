@@ -195,10 +195,10 @@ class _Part:
         if offset is None or section.hinge is not None:
             return True
         along = [edge.centre for edge in self.edges if edge.axis == axis]
-        same = [place for place in along if float(np.abs(np.delete(centre - place, axis)).max()) <= zero]
-        places = [float(centre[axis]), *(place[axis] for place in same)]
+        places = [place[axis] for place in along if float(np.abs(np.delete(centre - place, axis)).max()) <= zero]
         towards = float(camera.axes[2, axis])
-        return min(towards * (place - offset) for place in places) <= zero
+        # Marks of no round edges are where the user wants them.
+        return not places or min(towards * (place - offset) for place in places) <= zero
 
     def reach(self, camera: Camera, scenes: Iterable[Scene], factor: float) -> Floats:
         """(2,2) how far scenes reach from the middle of the part across a view, in the world."""
