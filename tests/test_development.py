@@ -135,3 +135,32 @@ def test_the_command_writes_a_page_and_its_parts(tmp_path):
     assert result.exit_code == 0, result.output
     assert sorted(file.name for file in tmp_path.iterdir()) == ["net-1-1.svg", "net-1-2.svg", "net.svg"]
     assert 'inkscape:label="1 cut"' in (tmp_path / "net.svg").read_text()
+
+
+RIMS = [
+    ("cylinder 20 0 40 capped", [20, 20], 40.0),
+    ("frustum 25 12 30 capped", [25, 12], np.hypot(30, 13)),
+    ("cone 15 30 capped", [15], np.hypot(30, 15)),
+]
+
+
+@pytest.mark.parametrize(("body", "radii", "seam"), RIMS)
+def test_curved_rims_have_teeth_on_one_of_both_pieces(body, radii, seam):
+    net = vp.development(parse_scene(f"CAN surface {body}"), tabs_mm=5)
+    around = 2 * np.pi * np.array(radii)
+    # A dash of 3 mm and a gap of 1.5.
+    assert 1.5 * length(net, "mountain fold") == pytest.approx(around.sum() + seam, rel=0.04)
+    # Of each tooth two slanting sides and what is between them, of the seam as well; and the other piece of each rim.
+    teeth = np.ceil(around / 7.5)
+    slant, narrower = 5 / np.sin(np.radians(60)), 10 / np.tan(np.radians(60))
+    cut = around + teeth * (2 * slant - narrower) + around
+    assert length(net, "cut") == pytest.approx(cut.sum() + 2 * seam + 2 * slant - narrower, rel=0.02)
+
+
+def test_what_is_tiny_is_told_by_the_command(tmp_path):
+    (tmp_path / "die.scene").write_text("DIE box 1 1 1", encoding="utf-8")
+    ways = [["die.scene", "-o", "die.svg"], ["die.scene", "-o", "die.svg", "--unit", "cm"]]
+    told = [
+        CliRunner().invoke(develop, [str(tmp_path / way[0]), "-o", str(tmp_path / way[2]), *way[3:]]) for way in ways
+    ]
+    assert "is 4 x 3 mm: --unit cm or m" in told[0].output and not told[1].output

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -224,3 +225,29 @@ def test_the_command_draws_what_the_function_draws(tmp_path):
     assert CliRunner().invoke(draw, [str(heights), "-o", str(out), *words]).exit_code == 0
     vp.save(vp.panorama(vp.read(heights), vp.Panorama((1.5, 1.4), strips=2), title="Round", frame=True), own)
     assert out.read_bytes() == own.read_bytes()
+
+
+def test_names_of_what_is_seen_stand_above_their_strip_in_order_and_what_is_hidden_has_none():
+    """Walls to the north and the east; one summit is behind a wall, one is below the panorama."""
+    walls = [vp.Item("NORTH", box((4, 1, 3)).moved(-2, 5, -1)), vp.Item("EAST", box((1, 4, 2)).moved(5, -2, -1))]
+    places = {"A": (-1, 5, 2), "BB": (1, 5, 2), "C": (5, 0, 1), "HIDDEN": (0, 9, 1), "DEEP": (1, 0, -5)}
+    labels = tuple(vp.Label(name, at, size_mm=3) for name, at in places.items())
+    round_about = vp.Panorama((0, 0, 0), strips=1, middle_deg=45, width_deg=180, lowest_deg=-30)
+    plain, named = (
+        vp.panorama(vp.Scene(tuple(walls), labels=some), round_about, page="300x120") for some in ((), labels)
+    )
+    assert not any(layer.name == "label" for layer in plain.layers)
+    (layer,) = (layer for layer in named.layers if layer.name == "label")
+    (paths,) = layer.strokes
+    parts = [paths.points[a:b] for a, b in pairwise(paths.offsets.tolist())]
+    # Three lines of names, and the strokes of A, B, B and C: 3, 4, 4 and 1 (or fewer where they are joined).
+    others = [part.points[:, 1] for layer in named.layers if layer.name != "label" for part in layer.strokes]
+    skyline = float(np.concatenate(others).max())
+    lines = sorted(
+        (one for one in parts if len(one) == 2 and one[:, 1].min() <= skyline + 1.0), key=lambda one: one[:, 0].max()
+    )
+    feet = [float(one[np.argmin(one[:, 1]), 0]) for one in lines]
+    assert len(lines) == 3
+    radius = (feet[1] - feet[0]) / (2 * np.arctan(1 / 5))
+    assert (feet[2] - feet[1]) / radius == pytest.approx(np.pi / 2 - np.arctan(1 / 5), abs=1e-3)
+    assert min(one[:, 1].max() for one in lines) > skyline

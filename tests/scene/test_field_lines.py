@@ -108,3 +108,41 @@ def test_items_without_fields_have_no_arrows() -> None:
         field_arrows(vp.Item("SHEET", SHEET), "round")
     with pytest.raises(InputError, match="positive lengths"):
         field_arrows(vp.Item("S", SHEET, fields=FIELDS), "round", apart=-1.0)
+
+
+def test_arrows_of_formulas_stand_on_a_surface_wherever_it_is_and_as_the_function_says() -> None:
+    text = 'field_arrows of BALL "-y" "x" 0 apart 0.5 longest 0.3\nBALL surface sphere 2'
+    scene = parse_scene(text)
+    same = field_arrows(scene.items[0], lambda points: np.cross((0.0, 0.0, 1.0), points), apart=0.5, longest=0.3)
+    starts = []
+    for one, other in zip(scene.items[1:], same.items, strict=True):
+        ends = [line.shape.points(np.array([0.0, line.shape.end])) for line in (one, other)]
+        np.testing.assert_allclose(ends[0], ends[1], atol=1e-12)
+        starts.append(ends[0][0])
+        np.testing.assert_allclose(np.diff(ends[0], axis=0)[0], np.cross((0, 0, 0.15), ends[0][0]), atol=2e-4)
+    np.testing.assert_allclose(np.linalg.norm(starts, axis=1), 2.0)
+    again = parse_scene(write_scene(scene))
+    assert len(again.items) == len(scene.items) and len(again.labels) == len(scene.labels)
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ("field_arrows of B wind", "item 'B': expected one of A"),
+        ("field_arrows A", "expected 'of'"),
+        ("field_arrows of A wind", "no field 'wind'"),
+        ('field_arrows of A "x" "y"', "a formula in x"),
+        ("field_arrows of A 1 0 0 apart -1", "positive lengths"),
+        ("field_arrows of A 1 0 0 appart 1", "did you mean 'apart'"),
+        ("field_arrows of A 1 0 0 apart 0.001", "larger 'apart'"),
+        ('C surface implicit "x+y+z" box -1 1 -1 1 -1 1 field_arrows of C 1 0 0', "parametrised surfaces"),
+    ],
+)
+def test_arrows_that_cannot_be_are_told_with_their_line(text: str, told: str) -> None:
+    with pytest.raises(InputError, match=f"^<text>:2: .*{told}"):
+        parse_scene(f"A surface sphere 1\n{text}")
+
+
+def test_functions_that_give_no_vectors_are_told() -> None:
+    with pytest.raises(InputError, match="a field of vectors gives"):
+        field_arrows(vp.Item("SHEET", SHEET), lambda points: points[:, 0])

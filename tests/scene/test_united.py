@@ -115,3 +115,20 @@ def test_the_option_unites_what_a_file_holds(verb, tmp_path):
         assert run([verb, str(tmp_path / f"{name}.scene"), "-o", str(tmp_path / f"{name}.svg"), *option]) == 0
     sizes = [(tmp_path / f"{name}.svg").read_text().count("M") for name in ("row", "whole")]
     assert sizes[0] == sizes[1]
+
+
+def test_facets_of_bores_are_no_creases_of_a_union():
+    text = """union U A translation base_points 0 0 0, 9 0 0, 9 9 0, 0 9 0 trans_vector 0 0 2 bore 4 4 0 2
+              B box 9 1 5 end camera eye 20 -30 40 target 4 4 1"""
+    drawing = vp.draw(parse_scene(text), page=vp.Page(100, 80), lines="crease")
+    drawn = np.concatenate([paths.points3d for layer in drawing.layers for paths in layer.strokes])
+    # Of the bore there are both rims, and nothing between them.
+    bored = drawn[np.hypot(drawn[:, 0] - 4, drawn[:, 1] - 4) < 2.1]
+    assert len(bored) and np.isin(bored[:, 2].round(9), (0.0, 2.0)).all()
+    upright = [
+        paths.points3d[a:b]
+        for layer in drawing.layers
+        for paths in layer.strokes
+        for a, b in zip(paths.offsets[:-1], paths.offsets[1:], strict=True)
+    ]
+    assert not any(np.ptp(one[:, 2]) > 1.0 and np.hypot(*(one[0, :2] - 4)) < 2.1 for one in upright)

@@ -13,7 +13,9 @@ import vectorplot as vp
 from vectorplot.cli.main import run
 from vectorplot.geometry import box
 from vectorplot.io.scene_language import parse_scene
+from vectorplot.io.scene_writer import write_scene
 from vectorplot.pictures.sheet_annotations import parts_of, written_on
+from vectorplot.testing import assert_drawings_equal
 
 
 def words_of(sheet):
@@ -204,3 +206,66 @@ def test_a_sheet_of_each_part_follows_that_of_the_whole(tmp_path, capsys):
     assert run(["sheet", str(scene), "-o", str(out), "--field", "MATERIAL"]) == 2
     assert "expected NAME=TEXT" in capsys.readouterr().err
     assert run(["sheet", str(scene), "-o", str(out), "--explode", "z", "--explode", "TOP=0,0,1"]) == 2
+
+
+SHEET = """PART gray box 40 20 10
+sheet views front, top scale 2:1 page A4 section "x=20" dimensions frame no_block author "V. Plot"
+  field "MATERIAL" "S235" interrupted "x=25..35" standard asme measured_in mm"""
+
+
+def test_what_a_scene_says_of_its_sheet_is_what_the_arguments_say():
+    scene = parse_scene(SHEET)
+    told = {"views": "front,top", "scale": "2:1", "page": "A4", "section": "x=20", "dimensions": True, "frame": True}
+    told |= {"block": False, "interrupted": ["x=25..35"], "standard": "asme"}
+    plain = parse_scene(SHEET.splitlines()[0])
+    assert_drawings_equal(vp.technical_sheet(scene), vp.technical_sheet(plain, **told))
+    # What is asked for goes before what the scene says.
+    other = vp.technical_sheet(scene, section=(), frame=False, scale="1:1")
+    assert_drawings_equal(other, vp.technical_sheet(plain, **{**told, "section": (), "frame": False, "scale": "1:1"}))
+    assert parse_scene(write_scene(scene)).sheet == scene.sheet
+    assert scene.sheet.said["fields"] == (("MATERIAL", "S235"),)
+
+
+def test_fields_of_the_command_are_beside_those_of_the_scene(tmp_path):
+    path = tmp_path / "part.scene"
+    path.write_text('PART box 4 2 1\nsheet field "MATERIAL" "S235" field "MASS" "1 kg"', encoding="utf-8")
+    out = tmp_path / "part.svg"
+    assert run(["sheet", str(path), "-o", str(out), "--field", "MASS=2 kg", "--text", "real"]) == 0
+    written = out.read_text(encoding="utf-8")
+    assert "S235" in written and "2 kg" in written and "1 kg" not in written
+
+
+@pytest.mark.parametrize(
+    ("said", "cause"),
+    [
+        ("sheet", "expected one of dimensions"),
+        ("sheet scale 1to2", "scale '1to2'"),
+        ("sheet page A99", "sheet: "),
+        ("sheet section y=2", "expected a text in quotes"),
+        ("sheet frame frame", "a second 'frame'"),
+        ("sheet views front, frnt", "expected one of front"),
+        ("sheet unit km", "sheet: unit: expected one of mm, cm, m, in"),
+        ('sheet block_template "a.toml"', "names no files"),
+        ("sheet frame dimension", "unknown word 'dimension'|dimension: "),
+    ],
+)
+def test_sheets_of_scenes_that_cannot_be(said, cause):
+    with pytest.raises(vp.InputError, match=cause):
+        parse_scene(f"PART box 4 2 1\n{said}")
+
+
+def test_materials_are_a_column_of_the_list_and_a_field_of_each_part(tmp_path):
+    text = 'A box 4 2 1\nB box 1 1 1 translation 0 0 1\nsheet views iso parts_list made_of "A" "S235"'
+    sheet = vp.technical_sheet(parse_scene(text), made_of={"B": "brass"}, text="real")
+    assert {"MATERIAL", "S235", "brass"} <= set(words_of(sheet))
+    assert "MATERIAL" not in words_of(vp.technical_sheet(parse_scene(text.partition("made_of")[0]), text="real"))
+    with pytest.raises(vp.InputError, match="made of: part 'C': expected one of A, B"):
+        vp.technical_sheet(parse_scene(text), made_of={"C": "gold"})
+    (tmp_path / "two.scene").write_text(text, encoding="utf-8")
+    out = tmp_path / "two.pdf"
+    assert run(["sheet", str(tmp_path / "two.scene"), "-o", str(out), "--each-part", "--text", "real"]) == 0
+    pages = [
+        subprocess.run(["pdftotext", "-f", page, "-l", page, str(out), "-"], capture_output=True, check=True).stdout
+        for page in "23"
+    ]
+    assert b"S235" in pages[0] and b"S235" not in pages[1]

@@ -188,3 +188,74 @@ def test_strokes_are_divided_at_a_ring():
         for some in (inner, outer)
     ]
     assert lengths[0] == pytest.approx([2.0, 1.0, 1.0]) and lengths[1] == pytest.approx([2.0, 2.0, 6.0, 6.0])
+
+
+@pytest.mark.parametrize(("section", "marks"), [("y=25", False), ("y=4", True)])
+def test_a_section_has_no_centre_marks_of_what_it_takes_away(section, marks):
+    base = prism([(0, 0, 0), (60, 0, 0), (60, 50, 0), (0, 50, 0)], (0, 0, 12))
+    hole = regular_polygon(48, 6, centre=(30, 0, 30), normal=(0, 1, 0))
+    ear = prism([(20, 0, 20), (40, 0, 20), (40, 0, 40), (20, 0, 40)], (0, 10, 0), holes=[hole])
+    sheet = vp.technical_sheet([base, ear], views="top", section=section, centre_lines=True)
+    assert any(name.startswith("centre mark") for name, _ in strokes_of(sheet, "centre")) == marks
+
+
+def rod(size=1.0):
+    """A square rod along x, 600 x 20 x 20, with a step at 500."""
+    parts = [((0, 0, 0), (500, 20, 20)), ((500, 5, 5), (100, 10, 10))]
+    boxes = [vp.Item(f"rod {k}", box(sides).moved(*at), group="rod") for k, (at, sides) in enumerate(parts)]
+    return vp.Scene(tuple(boxes)).scaled(size)
+
+
+def test_an_interrupted_view_is_as_much_shorter_and_its_measures_are_true():
+    chain = vp.dimension((0, 0, 20), (500, 0, 20), (0, 0, 10))
+    scene = vp.Scene(rod().items)
+    told = {"views": "front", "interrupted": "x=40..460", "scale": "1:1", "page": "A3", "block": False}
+    sheet = vp.technical_sheet([scene, chain], **told, dimensions=True, text="real")
+    whole = outlines(sheet)
+    assert np.ptp(whole[:, :, 0]) == pytest.approx(600 - 420 + 5, abs=1e-6)
+    written = [text for layer in sheet.layers for texts in layer.texts for text in texts.strings]
+    assert {"500", "600"} <= set(written)
+    breaks = [part for _, part in strokes_of(sheet, "thin")]
+    assert len(breaks) == 2 and [np.ptp(one[:, 1]) for one in breaks] == pytest.approx([25.0, 25.0])
+    left, right = sorted(one[0, 0] - whole[:, :, 0].min() for one in breaks)
+    assert (left, right) == pytest.approx((40.0, 45.0))
+
+
+def test_interruptions_of_a_small_part_in_inches_look_the_same():
+    told = {"views": "front,left,iso", "interrupted": "x=40..460", "section": "x=550", "dimensions": True}
+    sheets = [vp.technical_sheet(rod(size), unit=unit, **told) for size, unit in ((1.0, "mm"), (0.001, "m"))]
+    for one, other in zip(*(outlines(sheet) for sheet in sheets), strict=True):
+        assert np.allclose(one, other, atol=2e-3)
+
+
+def test_what_is_shown_of_an_interrupted_part_in_space_is_apart():
+    sheet = vp.technical_sheet(rod(), views="iso", interrupted=["x=40..240", "x=260..460"], scale="1:1", page="A3")
+    x = np.concatenate([part for _, part in strokes_of(sheet, "contour")])[:, 0]
+    # The rod ends 5 before its widest side.
+    long = 600 - 400 + 2 * 5 + 15
+    assert np.ptp(x) == pytest.approx(long * np.sqrt(0.5), abs=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("told", "cause"),
+    [
+        ({"interrupted": "x=4"}, "expected an axis, from and to"),
+        ({"interrupted": "x=400..40"}, "inside of the part"),
+        ({"interrupted": "x=40..900"}, "x is 0 to 600"),
+        ({"interrupted": ["x=40..200", "x=150..300"]}, "x=150..300 is left out twice"),
+        ({"interrupted": "x=40..460", "section": "x=100"}, "section A-A: in what is left out"),
+        ({"interrupted": "x=40..460", "detail_view": "front:100,0,0,9"}, "detail A: in what is left out"),
+        ({"interrupted": "x=40..460", "section": "aligned x at 10,10 from 180 to 45"}, "exclude each other"),
+    ],
+)
+def test_interruptions_that_cannot_be(told, cause):
+    with pytest.raises(vp.InputError, match=cause):
+        vp.technical_sheet(rod(), **told)
+
+
+def test_a_break_through_nothing_has_no_line():
+    ends = [vp.Item(f"end {k}", box((30, 10, 10)).moved(x, 0, 0)) for k, x in enumerate((0, 300))]
+    told = {"views": "front", "interrupted": "x=60..270", "scale": "1:1", "page": "A3", "block": False}
+    sheet = vp.technical_sheet(ends, **told)
+    assert layer(sheet, "thin") is None or not strokes_of(sheet, "thin")
+    assert np.ptp(outlines(sheet)[:, :, 0]) == pytest.approx(330 - 210 + 5)

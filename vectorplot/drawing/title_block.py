@@ -283,14 +283,14 @@ class TitleBlock:
 
     words: what is known, by the names of KNOWN; fields: free ones, which stand where the template names them, or in
     rows of their own on top; angle: the projection method, which is said by its symbol; parts: the rows of the list of
-    parts, from the first, each with number, quantity and name.
+    parts, from the first, each with number, quantity and name, and perhaps what it is made of, all or none of them.
     """
 
     words: Mapping[str, str]
     angle: str
     fields: Mapping[str, str] = field(default_factory=dict)
     template: BlockTemplate = BLOCK
-    parts: tuple[tuple[str, str, str], ...] = ()
+    parts: tuple[tuple[str, ...], ...] = ()
 
     @property
     def rows(self) -> tuple[BlockRow, ...]:
@@ -372,17 +372,21 @@ def _filled(text: str, known: Mapping[str, str]) -> str:
 PART_ROW_MM, PART_LETTERS_MM = 7.0, 3.5
 """The height of the rows of a list of parts, and of the capitals in it."""
 
-PART_SHARES = (0.12, 0.12, 0.76)
-"""How wide its columns are: numbers, quantities, names."""
+PART_HEADS = ("ITEM", "QTY", "NAME", "MATERIAL")
+"""The heads of its columns, the last one where materials are said."""
+
+PART_SHARES = {3: (0.12, 0.12, 0.76), 4: (0.12, 0.12, 0.46, 0.3)}
+"""How wide its columns are, three or four of them."""
 
 
 def _parts_list(
-    parts: Sequence[tuple[str, str, str]], left: float, right: float, low: float, plain: Plain
+    parts: Sequence[tuple[str, ...]], left: float, right: float, low: float, plain: Plain
 ) -> tuple[float, list[Floats], list[Lettering]]:
     """The top of a list of parts that grows upwards from its head, its rules and its letters."""
-    rows = [("ITEM", "QTY", "NAME"), *parts]
+    columns = len(parts[0])
+    rows = [PART_HEADS[:columns], *parts]
     top = low + PART_ROW_MM * len(rows)
-    ends = (left + (right - left) * np.cumsum([0.0, *PART_SHARES])).tolist()
+    ends = (left + (right - left) * np.cumsum([0.0, *PART_SHARES[columns]])).tolist()
     rules = [_line(left, y, right, y) for y in (low + PART_ROW_MM * np.arange(1, len(rows))).tolist()]
     rules += [_line(x, low, x, top) for x in ends[1:-1]]
     letters = []

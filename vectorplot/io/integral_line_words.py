@@ -260,3 +260,33 @@ def _field_text(field: TangentField) -> str:
 def _degrees(angle: float) -> float:
     """An angle in degrees, with as few digits as give the same radians back."""
     return next((s for s in (round(degrees(angle), k) for k in range(15)) if radians(s) == angle), degrees(angle))
+
+
+# Arrows along vectors.
+
+_ARROW_LENGTHS = ("apart", "longest")
+
+
+def read_arrows(words: Words, at: int) -> tuple[str, str | SpaceFormulas, dict[str, float], int]:
+    """The item and the field of the arrows that the words from ``field_arrows`` on ask for, how far they are apart and
+    how long, and the word behind them."""
+    start, owner, lengths = at, "field_arrows: ", dict[str, float]()
+    if words.words[at + 1] != "of" or not words.words[at + 2]:
+        words.fail(at + 1, f"{owner}expected 'of' and the name of an item, got {words.shown(at + 1)}")
+    name, at = words.string(at + 2), at + 3
+    if words.words[at] in ("", ","):
+        words.fail(at, f"{owner}expected the name of a field or three formulas, got {words.shown(at)}")
+    field: str | SpaceFormulas
+    quoted = words.words[at].startswith('"') and (words.words[at + 1].startswith('"') or words.is_number(at + 1))
+    if quoted or words.is_number(at):
+        formulas, at = read_formulas(3, "x", "y", "z")(words, at, owner, "a field")
+        field = SpaceFormulas(formulas)
+    else:
+        field, at = words.string(at), at + 1
+    while (word := words.words[at]) in _ARROW_LENGTHS:
+        if word in lengths:
+            words.fail(at, f"{owner}a second '{word}'")
+        lengths[word], at = words.number(at + 1, owner, word), at + 2
+    if (meant := words.misspelled(start, at, _ARROW_LENGTHS)) is not None:
+        words.fail(at, f"{owner}unknown word {words.shown(at)} (did you mean '{meant}'?)")
+    return name, field, lengths, at

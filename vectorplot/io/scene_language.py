@@ -14,6 +14,7 @@ from vectorplot.curves.curve import is_curve
 from vectorplot.errors import InputError, printable
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.solids import IDENTITY
+from vectorplot.io.integral_line_words import read_arrows
 from vectorplot.io.item_reader import ItemReader
 from vectorplot.io.mesh_file import shown
 from vectorplot.io.named_files import DEEPEST, NamedFiles
@@ -36,9 +37,10 @@ from vectorplot.io.scene_statements import (
     read_measures,
     read_page,
     read_scale_bar,
+    read_sheet,
 )
 from vectorplot.io.scene_words import ANNOTATION_WORDS, SCENE_WORDS, Words
-from vectorplot.scene.annotations import label_anchors
+from vectorplot.scene.annotations import field_arrows, label_anchors
 from vectorplot.scene.extent import check_range
 from vectorplot.scene.item import Item
 from vectorplot.scene.labels import Label
@@ -133,6 +135,7 @@ class _Reader(ItemReader):
         self.lights: list[Light] = []
         self.labels: list[tuple[int, Label]] = []
         self.annotations: list[Scene] = []
+        self.arrows: list[int] = []
         self.pens: list[tuple[int, str]] = []
         self.cuts: list[int] = []
         self.moves: list[int] = []
@@ -142,10 +145,22 @@ class _Reader(ItemReader):
 
     def annotated(self) -> Scene:
         """The whole file: the scene, and behind its items the lines and labels of annotations."""
-        scene = together([self.scene(), *self.annotations])
+        read = self.scene()
+        scene = together([read, *self.annotations, *(self.field_arrows(at, read) for at in self.arrows)])
         if scene.inks is not None:
             self.check_pens(scene)
         return scene
+
+    def field_arrows(self, at: int, scene: Scene) -> Scene:
+        """The arrows that a statement asks for, on an item that may come behind it."""
+        name, field, lengths, _ = read_arrows(self.source, at)
+        item = next((item for item in scene.items if item.name == name), None)
+        if item is None:
+            self.source.fail(at, unknown("field_arrows: item", name, [one.name for one in scene.items]).cause)
+        try:
+            return field_arrows(item, field, **lengths)
+        except InputError as error:
+            self.source.fail(at, f"field_arrows: {error.cause}")
 
     def scene(self) -> Scene:
         """All statements and items up to the end of the text."""
@@ -220,6 +235,10 @@ class _Reader(ItemReader):
             annotation, self.at = read_annotation(self.source, self.at)
             self.annotations.append(annotation)
             return
+        if word == "field_arrows":
+            self.arrows.append(self.at)
+            _, _, _, self.at = read_arrows(self.source, self.at)
+            return
         if word in self.set and word not in ("light", "label", "cut", "explode", *INK_WORDS):
             self.fail(f"a second '{word}'")
         self.set.add(word)
@@ -245,6 +264,9 @@ class _Reader(ItemReader):
         elif word == "measures":
             measures, self.at = read_measures(source, self.at)
             self.settings = replace(now, measures=measures)
+        elif word == "sheet":
+            sheet, self.at = read_sheet(source, self.at, self.files)
+            self.settings = replace(now, sheet=sheet)
         elif word == "explode":
             self.moves += [self.at] if self.words[self.at + 1].startswith('"') else []
             explosion, self.at = read_explosion(source, self.at, now.explosion)

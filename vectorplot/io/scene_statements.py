@@ -43,7 +43,7 @@ from vectorplot.scene.labels import (
     capital_height,
 )
 from vectorplot.scene.light import Exposure, Light, check_exposure
-from vectorplot.scene.page import FIT, LENGTH, SCALE, Page, length_mm, scale_ratio, sheet_size
+from vectorplot.scene.page import FIT, LENGTH, SCALE, Page, SheetSettings, length_mm, scale_ratio, sheet_size
 from vectorplot.scene.pens import CUES, FINEST_MM, LONGEST_MM, PEN_KINDS, WIDEST_MM, DepthCue, PenOverrides
 from vectorplot.scene.placement import fitted_page, page_at_scale, page_of_width
 from vectorplot.scene.scales import BoxAxes, Colouring, ScaleBar
@@ -262,6 +262,111 @@ def read_measures(words: Words, at: int) -> tuple[Measures, int]:
         return Measures(**given), at
     except InputError as error:
         words.fail(start, error.cause)
+
+
+SHEET_FLAGS = ("dimensions", "centre_lines", "frame", "balloons", "parts_list", "no_block")
+"""What a sheet has."""
+
+SHEET_TEXTS = ("section", "detail_view", "breakout", "interrupted")
+"""What it may have several of, each a text in quotes."""
+
+_SHEET_LINES = ("author", "date")
+_SHEET_CHOICES = {
+    "standard": ("iso", "asme"),
+    "projection": ("first", "third"),
+    "unit": ("mm", "cm", "m", "in"),
+    "measured_in": ("mm", "cm", "m", "in"),
+}
+_SHEET_PAIRS = {"field": "fields", "made_of": "made_of"}
+_SHEET_OTHERS = ("views", "scale", "page", *_SHEET_PAIRS, "block_template")
+_SHEET_WORDS = (*SHEET_FLAGS, *SHEET_TEXTS, *_SHEET_LINES, *_SHEET_CHOICES, *_SHEET_OTHERS)
+
+
+def read_sheet(words: Words, at: int, files: NamedFiles | None) -> tuple[SheetSettings, int]:
+    """What the words from ``sheet`` on say about the technical sheet of a scene, and the word behind them."""
+    start, owner = at, "sheet: "
+    at += 1
+    given: dict[str, Any] = {}
+    while (word := words.words[at]) in _SHEET_WORDS:
+        at += 1
+        if word in given or (word == "no_block" and "block" in given):
+            if word not in (*SHEET_TEXTS, *_SHEET_PAIRS):
+                words.fail(at - 1, f"{owner}a second '{word}'")
+        if word in SHEET_FLAGS:
+            given["block" if word == "no_block" else word] = word != "no_block"
+        elif word in SHEET_TEXTS:
+            given[word], at = (*given.get(word, ()), _sheet_text(words, at, word)), at + 1
+        elif word in _SHEET_LINES:
+            given[word], at = _sheet_text(words, at, word), at + 1
+        elif word in _SHEET_CHOICES:
+            given[word], at = _one_of(words, at, owner + word, _SHEET_CHOICES[word]), at + 1
+        elif word in _SHEET_PAIRS:
+            key, pair = _SHEET_PAIRS[word], (_sheet_text(words, at, word), _sheet_text(words, at + 1, word))
+            given[key], at = (*given.get(key, ()), pair), at + 2
+        elif word == "block_template":
+            if files is None:
+                words.fail(at, f"{owner}a text without a file names no files")
+            given[word], at = str(files.named(words, at, f"{owner}{word}: ", (STYLE_FILE,))), at + 1
+        elif word == "views":
+            views = [_one_of(words, at, f"{owner}{word}", tuple(VIEWS))]
+            while words.words[at + 1] == ",":
+                at += 2
+                views.append(_one_of(words, at, f"{owner}{word}", tuple(VIEWS)))
+            given[word], at = tuple(views), at + 1
+        else:
+            given[word], at = _sheet_size(words, at, word)
+    _check_spelling(words, start, at, _SHEET_WORDS)
+    if not given:
+        words.fail(at, f"{owner}expected one of {', '.join(_SHEET_WORDS)}, got {words.shown(at)}")
+    return SheetSettings(**given), at
+
+
+def _sheet_text(words: Words, at: int, what: str) -> str:
+    if not words.words[at].startswith('"'):
+        words.fail(at, f"sheet: {what}: expected a text in quotes, got {words.shown(at)}")
+    return words.string(at)
+
+
+def _one_of(words: Words, at: int, what: str, known: tuple[str, ...]) -> str:
+    if words.words[at] not in known:
+        words.fail(at, f"{what}: expected one of {', '.join(known)}, got {words.shown(at)}")
+    return words.words[at]
+
+
+def _sheet_size(words: Words, at: int, word: str) -> tuple[str, int]:
+    """The scale or the page of a sheet, and the word behind it."""
+    said = words.words[at]
+    try:
+        if word == "scale":
+            if said != "fit":
+                scale_ratio(said)
+            return said, at + 1
+        sheet_size(said)
+    except InputError as error:
+        words.fail(at, f"sheet: {error.cause}")
+    if words.words[at + 1] in ("landscape", "portrait"):
+        return f"{said} {words.words[at + 1]}", at + 2
+    return said, at + 1
+
+
+def sheet_text(sheet: SheetSettings) -> str:
+    """The statement that says it, as read_sheet reads it."""
+    parts = []
+    for name, value in sheet.said.items():
+        if name in SHEET_TEXTS:
+            parts += [f"{name} {dumps(text)}" for text in value]
+        elif name in _SHEET_PAIRS.values():
+            word = next(word for word, key in _SHEET_PAIRS.items() if key == name)
+            parts += [f"{word} {dumps(one)} {dumps(text)}" for one, text in value]
+        elif name == "views":
+            parts.append(f"views {', '.join(value)}")
+        elif name == "block":
+            parts += [] if value else ["no_block"]
+        elif isinstance(value, bool):
+            parts += [name] if value else []
+        else:
+            parts.append(f"{name} {value if name in ('scale', 'page', *_SHEET_CHOICES) else dumps(value)}")
+    return f"sheet {' '.join(parts)}" if parts else ""
 
 
 _CUT_NUMBERS = {"spacing": "spacing_mm", "angle": "angle_deg"}

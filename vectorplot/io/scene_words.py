@@ -83,7 +83,7 @@ SCENE_WORDS = (
         "exposure",
         "depth_cue",
     ),
-    *("style", "pen", "dash", "explode", "measures"),
+    *("style", "pen", "dash", "explode", "measures", "sheet", "field_arrows"),
     *("include", "assembly", "union", "end"),
     *(word for word in ANNOTATION_WORDS if word not in SLOT_TOO),
 )

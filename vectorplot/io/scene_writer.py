@@ -22,7 +22,7 @@ from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.io.reserved_words import RESERVED
 from vectorplot.io.scene_item import hatch_text
-from vectorplot.io.scene_statements import ink_texts
+from vectorplot.io.scene_statements import ink_texts, sheet_text
 from vectorplot.io.scene_words import bare_word
 from vectorplot.io.shape_arguments import Formulas
 from vectorplot.scene.cuts import Cut
@@ -392,6 +392,8 @@ def write_scene(scene: Scene) -> str:
         blocks.extend([] if said.moves else [f"explode {_numbers(said.way)} {said.factor:.17g}"])
     if scene.measures is not None and (told := _measures(scene.measures)):
         blocks.append(f"measures {told}")
+    if scene.sheet is not None and (told := sheet_text(scene.sheet)):
+        blocks.append(told)
     if scene.inks is not None:
         blocks.extend(ink_texts(scene.inks))
     return "".join(block + "\n" for block in blocks)

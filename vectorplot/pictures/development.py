@@ -6,6 +6,7 @@ import math
 import warnings
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from typing import Any, Literal
 
 import numpy as np
@@ -56,6 +57,12 @@ GAP_MM = 6.0
 
 TAB_ANGLES = (60.0, 30.0, 15.0)
 """At the feet of tabs, in degrees: the next one where there is no room for the one before."""
+
+RIM_PLACES = 64
+"""On a rim, which tell whether two pieces have it in common."""
+
+TOOTH, FEWEST_TEETH = 1.5, 8
+"""The feet of teeth along curved rims, in heights of tabs, and how many of them a rim has at the least."""
 
 WIDEST_FOOT = 0.4
 """Of the length of an edge, what each slanting side of its tab takes at most."""
@@ -125,7 +132,8 @@ CUT, MOUNTAIN, VALLEY, NUMBER, CURVE = range(5)
 class Developed:
     """An item in the plane: its strokes, how many pieces it has, and polygons (k,) of shapely that they cover with the
     piece of each; one, other (e,2,2): sides, with what they bound to their left, that belong together, and their
-    pieces; gap: how far apart in mm are corners that count as one."""
+    pieces; gap: how far apart in mm are corners that count as one; rims, of_rim: curved sides (n,2), with what they
+    bound to their left, that belong to one of another piece, and their pieces."""
 
     name: str
     strokes: Strokes2D
@@ -137,6 +145,8 @@ class Developed:
     of_one: Ints
     of_other: Ints
     gap: float
+    rims: tuple[Floats, ...] = ()
+    of_rim: tuple[int, ...] = ()
 
 
 # Polyhedra.
@@ -227,6 +237,7 @@ def _of_surface(item: Item, others: Sequence[Item], tolerance: float, tracing: T
     """A developable surface unrolled, each of its parts a piece, with the curves on it."""
     parts: list[Strokes2D] = []
     areas, one, other, of_one = [], [], [], []
+    rims: list[tuple[int, Floats, Floats]] = []
     smooth = _smooth_parts(item.shape)
     for number, surface in enumerate(smooth):
         may_stop()
@@ -257,6 +268,10 @@ def _of_surface(item: Item, others: Sequence[Item], tolerance: float, tracing: T
             other.append(sides[3][[0, -1]])
             of_one.append(number)
         parts.append(_polylines(shown, CUT, number))
+        for side, v in ((sides[0], domain.v_start), (sides[2], domain.v_end)):
+            if len(smooth) > 1 and norm(np.diff(side, axis=0)).sum() > COINCIDENT_MM:
+                u = np.linspace(domain.u_start, domain.u_end, RIM_PLACES, endpoint=False)
+                rims.append((number, side, unrolled.surface.points(u, np.full(RIM_PLACES, v))))
         areas.append(ring)
         parts += _curves_on_surface(item, unrolled, others, tracing, tolerance, number)
     sizes = [len(ring) for ring in areas]
@@ -264,7 +279,23 @@ def _of_surface(item: Item, others: Sequence[Item], tolerance: float, tracing: T
     pieces = np.array(of_one, dtype=np.intp)
     first, last = (np.array(ends, dtype=np.float64).reshape(-1, 2, 2) for ends in (one, other))
     strokes, numbers = Strokes2D.joined(parts), np.arange(len(areas))
-    return Developed(item.name, strokes, len(areas), polygons, numbers, first, last, pieces, pieces, 0.0)
+    glued = _rims_with_others(rims)
+    return Developed(
+        *(item.name, strokes, len(areas), polygons, numbers, first, last, pieces, pieces, 0.0),
+        rims=tuple(side for _, side in glued),
+        of_rim=tuple(number for number, _ in glued),
+    )
+
+
+def _rims_with_others(rims: Sequence[tuple[int, Floats, Floats]]) -> list[tuple[int, Floats]]:
+    """The rims, each a piece, its side in the plane and places on it in space, that a later piece has too."""
+    middles = [(places.mean(axis=0), float(norm(places - places.mean(axis=0)).mean())) for _, _, places in rims]
+
+    def alike(k: int, m: int) -> bool:
+        (one, size), (two, other) = middles[k], middles[m]
+        return rims[k][0] < rims[m][0] and float(norm(two - one)) + abs(other - size) <= COINCIDENT_MM
+
+    return [(rims[k][0], rims[k][1]) for k in range(len(rims)) if any(alike(k, m) for m in range(len(rims)))]
 
 
 def _smooth_parts(shape: Any) -> list[Surface]:
@@ -376,7 +407,45 @@ def _tabbed(made: Developed, height: float) -> tuple[Developed, int]:
     for angle in TAB_ANGLES:
         made, glued = _with_tabs(made, rest, height, angle)
         rest = rest[~glued]
-    return made, len(rest)
+    missing = 0
+    for rim, piece in zip(made.rims, made.of_rim, strict=True):
+        made, complete = _with_teeth(made, rim, piece, height)
+        missing += not complete
+    return made, len(rest) + missing
+
+
+def _with_teeth(made: Developed, rim: Floats, piece: int, height: float) -> tuple[Developed, bool]:
+    """The same with teeth along a curved rim (n,2) of a piece, as many as have room; and whether these are all."""
+    import shapely
+
+    along = np.concatenate([[0.0], np.cumsum(norm(np.diff(rim, axis=0)))])
+    count = max(FEWEST_TEETH, math.ceil(float(along[-1]) / (TOOTH * height)))
+    feet = float(along[-1]) * np.arange(count + 1) / count
+    places = np.stack([np.interp(feet, along, column) for column in rim.T], axis=1)
+    sides = np.stack([places[:-1], places[1:]], axis=1)
+    for angle in TAB_ANGLES:
+        teeth = _tabs(sides, height, angle)
+        # Feet are chords: the half of a tooth that is next to them may lie on the piece.
+        upper = shapely.polygons(np.concatenate([(teeth[:, :2] + teeth[:, :1:-1]) / 2.0, teeth[:, 2:]], axis=1))
+        own = made.areas[made.piece == piece]
+        tooth, area = shapely.STRtree(own).query(upper, predicate="intersects")
+        over = np.zeros(count, dtype=np.bool_)
+        over[tooth[shapely.area(shapely.intersection(upper[tooth], own[area])) > COINCIDENT_MM * height]] = True
+        one, two = shapely.STRtree(upper).query(upper, predicate="intersects")
+        one, two = one[one < two], two[one < two]
+        over[two[shapely.area(shapely.intersection(upper[one], upper[two])) > COINCIDENT_MM * height]] = True
+        if not over.any():
+            break
+    kept = np.flatnonzero(~over)
+    inner = [rim[(along > low) & (along < high)] for low, high in pairwise(feet.tolist())]
+    lines = [np.concatenate([side[:1], between, side[1:]]) for side, between in zip(sides, inner, strict=True)]
+    strokes = [_without_segments(made.strokes, rim[None, [0, -1]], np.array([piece]))]
+    strokes.append(_polylines([lines[k] for k in kept.tolist()], MOUNTAIN, piece))
+    strokes.append(_polylines([lines[k] for k in np.flatnonzero(over).tolist()], CUT, piece))
+    strokes.append(_polylines(list(teeth[kept][:, [1, 2, 3, 0]]), CUT, piece))
+    areas = np.concatenate([made.areas, shapely.polygons(teeth[kept])])
+    pieces = np.concatenate([made.piece, np.full(len(kept), piece)])
+    return replace(made, strokes=Strokes2D.joined(strokes), areas=areas, piece=pieces), not over.any()
 
 
 def _with_tabs(made: Developed, pairs: Ints, height: float, angle: float) -> tuple[Developed, Bools]:

@@ -6,12 +6,13 @@ import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
+from typing import Any
 
 import numpy as np
 
-from vectorplot.arrays import Bools, Floats
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.drawing import NO_CURVE, Drawing, Layer, Paths
-from vectorplot.drawing.labels import NO_ITEM
+from vectorplot.drawing.labels import NO_ITEM, seen_labels
 from vectorplot.drawing.layers import shown_items
 from vectorplot.drawing.letters import lettered
 from vectorplot.drawing.pen_layers import layers_asked, line_list, sorted_layers
@@ -33,13 +34,14 @@ from vectorplot.pictures.pipeline import Pipeline, StageReport, stoppable
 from vectorplot.pictures.plan import plan_panorama
 from vectorplot.pictures.prepared_scene import with_face_looks
 from vectorplot.scene.added_lines import with_default_lines
+from vectorplot.scene.annotations import LabelAnchors, label_anchors, spread
 from vectorplot.scene.exploded import shown_apart
 from vectorplot.scene.page import Page
 from vectorplot.scene.placement import Placement, field_of_vision, fitted_picture, page_of
 from vectorplot.scene.scene import Scene
-from vectorplot.scene.view import look, without_seams
+from vectorplot.scene.view import View, look, without_seams
 from vectorplot.tolerances import LEAST_DIVISOR
-from vectorplot.visibility.projected_faces import project_faces
+from vectorplot.visibility.projected_faces import ProjectedFaces, project_faces
 from vectorplot.words import DRAWN, LineKind, line_kinds
 
 
@@ -90,7 +92,8 @@ def panorama(
     -------
     Drawing
         The visible lines in strips that fill the page, below each strip its bearings: a tick every five degrees, and
-        the names of the winds. Its page_from_world is that of the flat sheet: no matrix unrolls the world.
+        the names of the winds; above it the labels of the scene that are seen, as strokes, each with a line to its
+        place. Its page_from_world is that of the flat sheet: no matrix unrolls the world.
 
     Raises
     ------
@@ -139,21 +142,26 @@ def panorama(
     eye = eye_of(round_about, seamless)
     sheet = page_of(page, seamless, width)
     pipeline = Pipeline(plan_panorama(), explain, progress, threads)
+    anchors = label_anchors(seamless)
     trace = partial(
         _seen_by,
         seamless,
+        anchors,
         kinds=kinds,
         crease_angle_deg=crease_angle_deg,
         tolerance_mm=tolerance_mm,
         budget=budget,
     )
-    strokes, marks, placement = pipeline.run(
-        "panorama", panorama_on_page, round_about, eye, sheet, tolerance_mm, trace, pipeline.fraction("panorama")
+    strokes, marks, names, placement = pipeline.run(
+        "panorama",
+        panorama_on_page,
+        *(round_about, eye, sheet, tolerance_mm, anchors, trace, pipeline.fraction("panorama")),
     )
     named, shown = _names_and_colours(seamless), shown_items(seamless, strokes, np.append(eye, 1.0))
     found = pipeline.run("layers", sorted_layers, strokes, *named, finish.layers, finish.rules, (), shown)
     inks, letters = finish.inked(pipeline, found, placement), finish.letters(found)
-    drawing = finish.drawing((*inks, Layer("bearings", letters, (marks,))), placement, seamless, letters)
+    written = (Layer("bearings", letters, (marks,)), *([Layer("label", letters, (names,))] if len(names) else []))
+    drawing = finish.drawing((*inks, *written), placement, seamless, letters)
     return finish.of_pens(pipeline, drawing)
 
 
@@ -163,6 +171,7 @@ def _names_and_colours(scene: Scene) -> tuple[list[str], list[str]]:
 
 def _seen_by(
     scene: Scene,
+    anchors: LabelAnchors,
     camera: Camera,
     page: Page,
     *,
@@ -170,20 +179,34 @@ def _seen_by(
     crease_angle_deg: float,
     tolerance_mm: float,
     budget: float,
-) -> Paths:
-    """The visible lines of a scene on a page that the picture of a camera fills."""
+) -> tuple[Paths, Ints]:
+    """The visible lines of a scene on a page that the picture of a camera fills, and which labels it shows."""
     view = look(scene, camera)
+    faces = project_faces(view)
     placement = replace(field_of_vision(view, page, fit=False), page=page)
-    return lines_in_place(
+    lines = lines_in_place(
         scene,
         view,
-        project_faces(view),
+        faces,
         placement,
         kinds,
         crease_angle_deg=crease_angle_deg,
         tolerance_mm=tolerance_mm,
         budget=budget,
     )
+    return lines, _labels_seen(scene, anchors, view, faces, placement)
+
+
+def _labels_seen(scene: Scene, anchors: LabelAnchors, view: View, faces: ProjectedFaces, placement: Placement) -> Ints:
+    """(k,) the labels, by their numbers, that a picture shows and nothing hides; those of the page are none."""
+    there = np.flatnonzero(np.isfinite(anchors.points).all(axis=1))
+    numbered = tuple(replace(anchors.labels[k], name=str(k)) for k in there.tolist())
+    courses = tuple(anchors.courses[k] for k in there.tolist())
+    seen = seen_labels(
+        scene, view, faces, placement, LabelAnchors(numbered, anchors.points[there], courses), False, 1.0
+    )
+    shown = [int(label.name) for label, hidden in zip(seen.anchors.labels, seen.hidden_by, strict=True) if not hidden]
+    return np.array(shown, dtype=np.intp)
 
 
 # The lines that are seen from a place all round, by bearing and elevation.
@@ -196,15 +219,18 @@ MOST_HALVINGS = 24
 """Of a line that passes just above or below the eye."""
 
 
-Trace = Callable[[Camera, Page], Paths]
-"""The visible lines that a camera sees on a page that its picture fills, as straight parts of two points."""
+Trace = Callable[[Camera, Page], tuple[Paths, Ints]]
+"""The visible lines that a camera sees on a page that its picture fills, as straight parts of two points; and which of
+the places of labels."""
 
 
 def lines_all_round(
     given: Panorama, eye: Floats, radius_mm: float, trace: Trace, done: Callable[[float], None] | None = None
-) -> Paths:
-    """The lines that are seen, as straight parts of two points: bearings and elevations in radians; parts of lines of
-    the world that are curves there are not divided yet.
+) -> tuple[Paths, Ints]:
+    """The lines that are seen, and which labels.
+
+    Lines are straight parts of two points: bearings and elevations in radians; parts of lines of the world that are
+    curves there are not divided yet.
 
     radius_mm: how long a radian is on the page, for what is only drawn as well as it is seen.
     """
@@ -215,20 +241,21 @@ def lines_all_round(
     # A cone of one elevation is highest in the picture at its sides.
     top, side = float(tan(steepest) / np.cos(half)), float(tan(half))
     page = Page(2.0 * radius_mm * side, 2.0 * radius_mm * top, 0.0)
-    found, curves = [Paths.empty()], 0
+    found, named, curves = [Paths.empty()], [np.zeros(0, dtype=np.intp)], 0
     for number in range(count):
         bearing = first + (2 * number + 1) * half
         ahead = np.array([np.sin(bearing), np.cos(bearing), 0.0])
         # Far from the origin a unit would be lost in rounding.
         target = eye + max(1.0, float(np.abs(eye).max())) * ahead
         camera = Camera(tuple(eye), tuple(target), up=(0.0, 0.0, 1.0), fov_deg=float(np.degrees(2.0 * arctan(top))))
-        seen = trace(camera, page)
+        seen, names = trace(camera, page)
+        named.append(names)
         seen = replace(seen, curve=np.where(seen.curve == NO_CURVE, NO_CURVE, seen.curve + curves))
         curves = max(curves, int(seen.curve.max(initial=NO_CURVE)) + 1)
         found.append(_unrolled(seen, eye, ahead, bearing))
         if done is not None:
             done((number + 1) / count)
-    return concatenated(tuple(found))
+    return concatenated(tuple(found)), np.unique(np.concatenate(named))
 
 
 def _unrolled(seen: Paths, eye: Floats, ahead: Floats, middle: float) -> Paths:
@@ -322,6 +349,10 @@ SCALE_MM = 7.0
 """What the bearings below a strip take of the page, and the gap to the next one."""
 
 
+NAME_LINE_MM, NAME_GAP_MM, NAMES_APART = 3.0, 0.8, 1.6
+"""How far the lines of names go on above a strip, what is between these and what is named or written, and how far names
+are apart in heights of their capitals."""
+
 TICKS_MM = (1.0, 1.6, 2.2)
 """Of every fifth degree, of every fifteenth, and of those with a name."""
 
@@ -364,21 +395,26 @@ def panorama_on_page(
     eye: Floats,
     sheet: Page,
     tolerance_mm: float,
+    anchors: LabelAnchors,
     trace: Trace,
     done: Callable[[float], None] | None = None,
-) -> tuple[Paths, Paths, Placement]:
-    """The lines that are seen from a place all round as strokes on the page, the marks of its bearings, and the place
-    of the flat picture that they are.
+) -> tuple[Paths, Paths, Paths, Placement]:
+    """The lines that are seen from a place all round as strokes on the page, the marks of its bearings, names of what
+    is seen, and the place of the flat picture that they are.
 
     sheet: that the panorama is fitted to, as pictures of cameras are; trace: what a camera sees on a page.
     """
     width = float(np.radians(given.width_deg))
     low, high = np.radians(given.lowest_deg), np.radians(given.highest_deg)
-    radius = _strips(given, sheet, width, 0.0, DEFAULT_RADIANS).radius_mm
+    radius, rooms = _strips(given, sheet, width, 0.0, DEFAULT_RADIANS).radius_mm, _name_rooms(anchors)
     while True:
-        seen = lines_all_round(given, eye, radius, trace, done)
+        seen, which = lines_all_round(given, eye, radius, trace, done)
         lines = _within(with_chords(seen, eye, PART_OF_TOLERANCE * tolerance_mm / radius), 1, low, high)
-        found = _strips(given, sheet, width, *_extent(lines))
+        names = _names(given, eye, anchors, which, low, high)
+        lowest, highest = _extent(lines)
+        highest = max(highest, float(names.elevations.max(initial=highest)))
+        above = float(rooms[names.which].max(initial=0.0))
+        found = _strips(given, sheet, width, lowest, highest, above)
         if found.radius_mm <= LARGER * radius:
             break
         radius = found.radius_mm
@@ -389,7 +425,8 @@ def panorama_on_page(
         own = _within(lines, 0, start, start + part)
         points = found.radius_mm * (own.points - (start, 0.0)) + (found.left_mm, horizon)
         strokes.append(replace(own, points=points))
-    return concatenated(tuple(strokes)), _scales(given, found), _flat(found.page)
+    written = _names_above(names, anchors, found, first, part)
+    return concatenated(tuple(strokes)), _scales(given, found), written, _flat(found.page)
 
 
 def _flat(page: Page) -> Placement:
@@ -409,24 +446,26 @@ def _extent(lines: Paths) -> tuple[float, float]:
     return low, max(high, low + LEAST_RADIANS)
 
 
-def _radius(strips: int, sheet: Page, width: float, height: float) -> float:
-    """How long a radian may be on a sheet."""
+def _radius(strips: int, sheet: Page, width: float, height: float, around: float) -> float:
+    """How long a radian may be on a sheet; around: what is above and below each strip in mm."""
     across, up = sheet.room
-    return min(strips * across / width, max(up / strips - SCALE_MM, 0.0) / height)
+    return min(strips * across / width, max(up / strips - around, 0.0) / height)
 
 
-def _strips(given: Panorama, sheet: Page, width: float, low: float, high: float) -> Strips:
-    """The strips, as many as are asked for, or as many as make the picture largest."""
+def _strips(given: Panorama, sheet: Page, width: float, low: float, high: float, above: float = 0.0) -> Strips:
+    """The strips, as many as are asked for, or as many as make the picture largest; above: what names take above each
+    of them, in mm."""
+    around = SCALE_MM + above
     counts = (given.strips,) if given.strips else range(1, MOST_STRIPS + 1)
-    radius, fewest = max((_radius(count, sheet, width, high - low), -count) for count in counts)
+    radius, fewest = max((_radius(count, sheet, width, high - low, around), -count) for count in counts)
     count = -fewest
     if not radius > 0.0 or not math.isfinite(radius):
         radius, count = sheet.room[0] / width, given.strips or 1
-    each = radius * (high - low) + SCALE_MM
+    each = radius * (high - low) + around
     page = sheet.around(radius * width / count, count * each)
     left = 0.5 * (page.width_mm - radius * width / count)
     top = 0.5 * (page.height_mm + count * each)
-    horizons = np.asarray(top - each * np.arange(count) - radius * high, dtype=np.float64)
+    horizons = np.asarray(top - above - each * np.arange(count) - radius * high, dtype=np.float64)
     return Strips(page, radius, left, horizons, low, high)
 
 
@@ -451,6 +490,57 @@ def _within(lines: Paths, axis: int, low: float, high: float) -> Paths:
     return replace(parts, points=points.reshape(-1, 2), points3d=space.reshape(-1, 3))
 
 
+# Names of what is seen, above the strips.
+
+
+@dataclass(frozen=True, eq=False)
+class Names:
+    """Labels that are seen all round: which (n,), their bearings and elevations (n,) in radians."""
+
+    which: Ints
+    bearings: Floats
+    elevations: Floats
+
+
+def _names(given: Panorama, eye: Floats, anchors: LabelAnchors, which: Ints, low: float, high: float) -> Names:
+    """Those of the labels, which a camera has seen, that are within a panorama."""
+    first, last = np.radians(given.bearings_deg)
+    seen = bearings_and_elevations(anchors.points[which] - eye, np.array([0.0, 1.0, 0.0]), 0.0)
+    bearing = first + np.mod(seen[:, 0] - first, 2.0 * np.pi)
+    kept = (bearing < last) & (seen[:, 1] >= low) & (seen[:, 1] <= high)
+    return Names(which[kept], bearing[kept], seen[kept, 1])
+
+
+def _name_rooms(anchors: LabelAnchors) -> Floats:
+    """(l,) how much room labels take above a strip, upright, with their lines."""
+    long = [
+        float(np.ptp(lettered(label.text, size_mm=label.capitals_mm).bounds[:, 0])) if label.text else 0.0
+        for label in anchors.labels
+    ]
+    return np.array(long, dtype=np.float64) + NAME_LINE_MM + 4.0 * NAME_GAP_MM
+
+
+def _names_above(names: Names, anchors: LabelAnchors, strips: Strips, first: float, part: float) -> Paths:
+    """Names above their strips, upright and apart, each with a line to what it names."""
+    lines: list[Floats] = []
+    for number, horizon in enumerate(strips.horizons_mm.tolist()):
+        own = np.flatnonzero((names.bearings - first >= number * part) & (names.bearings - first < (number + 1) * part))
+        if not len(own):
+            continue
+        labels = [anchors.labels[k] for k in names.which[own].tolist()]
+        x = strips.left_mm + strips.radius_mm * (names.bearings[own] - first - number * part)
+        y = horizon + strips.radius_mm * names.elevations[own]
+        foot = horizon + strips.radius_mm * strips.high + NAME_LINE_MM
+        apart = NAMES_APART * max(label.capitals_mm for label in labels)
+        rows = zip(labels, x.tolist(), y.tolist(), spread(x, apart).tolist(), strict=True)
+        for label, at, height, aside in rows:
+            lines.append(np.array([(at, height + NAME_GAP_MM), (aside, foot)]))
+            how: dict[str, Any] = {"align": "left", "level": "middle", "rotation_deg": 90.0}
+            text = lettered(label.text, (aside, foot + NAME_GAP_MM), size_mm=label.capitals_mm, **how)
+            lines += [text.strokes[k] for k in range(len(text.strokes))]
+    return _marks(lines)
+
+
 def _scales(given: Panorama, strips: Strips) -> Paths:
     """Below each strip a line with a tick every five degrees, and the names of the winds."""
     first, last = given.bearings_deg
@@ -471,6 +561,11 @@ def _scales(given: Panorama, strips: Strips) -> Paths:
                 name = WINDS[degree // 45 % 8]
                 text = lettered(name, (x, foot - TICKS_MM[2] - 0.8), size_mm=LETTERS_MM, align="centre", level="top")
                 lines += [text.strokes[k] for k in range(len(text.strokes))]
+    return _marks(lines)
+
+
+def _marks(lines: Sequence[Floats]) -> Paths:
+    """Lines on the page (k,2) as strokes of letters."""
     total = len(lines)
     points = np.concatenate([np.zeros((0, 2)), *lines])
     none = np.zeros(total, dtype=np.intp)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -20,7 +20,7 @@ from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.polylines import segments
-from vectorplot.geometry.vectors import dot, norm, normalize
+from vectorplot.geometry.vectors import cross, dot, norm, normalize
 from vectorplot.io.anything import scene_of
 from vectorplot.scene.annotations import (
     CROSS,
@@ -217,7 +217,7 @@ class Annotation:
 
     def before(self, camera: Camera, bounds: Floats) -> Scene:
         """It where nothing within bounds (2,3) hides it from a view, at the same place in its picture."""
-        if self.name.startswith("threaded hole"):
+        if self.name.startswith(("threaded hole", "thread arc")):
             return self.scene
         back = camera.axes[2]
         nearest = float(matmul(bounds.mean(axis=0), back) + matmul(0.5 * np.ptp(bounds, axis=0), np.abs(back)))
@@ -563,6 +563,37 @@ def _ordinates_apart(one: Annotation, factor: float) -> Annotation:
         items[name] = replace(items[name], shape=Line.through(foot, bend))
         items[measure] = replace(items[measure], shape=Line.through(bend, end))
     return Annotation(replace(one.scene, items=tuple(items.values())))
+
+
+def moved_together(scene: Scene, moved: Callable[[Floats], Floats]) -> Scene:
+    """Annotations where points (n,3) of the part have moved; their measures stay what they are.
+
+    Lines go from where their ends are now; other curves move as a whole."""
+    items, measures = [], {}
+    for item in scene.items:
+        ends, points = _ends(item), annotation_points(Scene((item,)))
+        long, middle = float(norm(ends[1] - ends[0])), points.mean(axis=0)
+        off = norm(cross(points - ends[0], ends[1] - ends[0]))
+        if long > 0.0 and float(off.max()) <= ZERO_OF_EXTENT * long * long:
+            measures[item.name] = long
+            items.append(replace(item, shape=Line.through(*moved(ends))))
+        else:
+            items.append(item.moved(*(moved(middle[None])[0] - middle).tolist()))
+    labels = []
+    for label in scene.labels:
+        if isinstance(label.at, OnCurve | Along) and label.at.item in measures:
+            told = label.measured.replace(MEASURE, f"<{measures[label.at.item]!r}>")
+            label = replace(label, measured=told)
+        labels.append(label_moved(label, moved))
+    return replace(scene, items=tuple(items), labels=tuple(labels))
+
+
+def label_moved(label: Label, moved: Callable[[Floats], Floats]) -> Label:
+    """A label of a point where the point has moved."""
+    if not isinstance(label.at, tuple):
+        return label
+    x, y, z = moved(np.array([label.at]))[0].tolist()
+    return replace(label, at=(x, y, z))
 
 
 def level_measures(scene: Scene, factor: float) -> Scene:

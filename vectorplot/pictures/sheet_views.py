@@ -6,6 +6,7 @@ import math
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 
@@ -320,6 +321,26 @@ class SheetSection:
         turned = scene.moved(-x, -y, -z).turned("xyz"[self.turn_axis], zone.turn_deg)
         return turned.moved(x, y, z)
 
+    def interrupted(self, left_out: Interruptions, factor: float) -> SheetSection:
+        """It where it is in the shorter part."""
+
+        def moved(place: float, axis: int) -> float:
+            return float(left_out.moved(np.full((1, 3), place), factor)[0, axis]) if math.isfinite(place) else place
+
+        zones = tuple(
+            replace(
+                zone,
+                offset=None if zone.offset is None else moved(zone.offset, self.axis),
+                low=moved(zone.low, self.across),
+                high=moved(zone.high, self.across),
+            )
+            for zone in self.zones
+        )
+        if self.hinge is None:
+            return replace(self, zones=zones)
+        x, y, z = left_out.moved(np.array([self.hinge]), factor)[0].tolist()
+        return replace(self, zones=zones, hinge=(x, y, z))
+
     def zone_at(self, point: Sequence[float]) -> Zone:
         """The zone that shows a point of the part, as it is turned there."""
         return next(zone for zone in self.zones if point[self.across] <= zone.high)
@@ -558,6 +579,90 @@ def letters_at(text: str, middle: Floats, plain: Plain) -> Lettering:
     """The name of a view about a point; plain: what sets letters."""
     x, y = middle.tolist()
     return plain(text, (x, y), size_mm=LETTERS_MM, align="centre", level="middle")
+
+
+# Interrupted views: what a long part has all along is left out, and the rest moves together.
+#
+# Source: ISO 128-3 (interrupted views).
+
+BETWEEN_MM = 5.0
+"""How far on paper what is shown on both sides of a break is apart."""
+
+LEAST_LEFT_OUT = 0.5
+"""Gaps are no wider than so much of what they stand for."""
+
+BREAK_BEYOND_MM, ZIGZAG_MM, ZIGZAGS_MM = 2.5, 2.0, 60.0
+"""How far break lines go on beyond the part, half of the width and of the length of a zigzag in them, and how far
+zigzags are apart at the least."""
+
+_LEFT_OUT = re.compile(rf"\s*([xyz])\s*=\s*({NUMBER})\s*\.\.\s*({NUMBER})\s*")
+
+
+@dataclass(frozen=True)
+class Interruptions:
+    """What is left out of a long part in its views: from low to high along axes (0, 1, 2), upwards along each."""
+
+    ranges: tuple[tuple[int, float, float], ...] = ()
+
+    @classmethod
+    def of(cls, asked: str | Iterable[str], bounds: Floats) -> Interruptions:
+        """Those that texts such as x=40..160 say, of a part within bounds (2,3).
+
+        Errors: InputError for other texts, for what reaches beyond the part, and for what is left out twice.
+        """
+        found = []
+        for text in [asked] if isinstance(asked, str) else asked:
+            said = _LEFT_OUT.fullmatch(text)
+            if said is None:
+                raise InputError(f"interrupted {text!r}: expected an axis, from and to, such as x=40..160")
+            axis, low, high = "xyz".index(said[1]), float(said[2]), float(said[3])
+            least, most = bounds[:, axis].tolist()
+            if not least < low < high < most:
+                reach = f"where {said[1]} is {least:g} to {most:g}"
+                raise InputError(f"interrupted {text!r}: expected from and to inside of the part, {reach}")
+            found.append((axis, low, high))
+        found.sort()
+        for one, other in pairwise(found):
+            if one[0] == other[0] and not one[2] < other[1]:
+                raise InputError(f"interrupted: {'xyz'[one[0]]}={other[1]:g}..{other[2]:g} is left out twice")
+        return cls(tuple(found))
+
+    def moved(self, points: Floats, factor: float) -> Floats:
+        """(n,3) where points (n,3) of the part are in the shorter one, at so many mm for a unit of the world; what is
+        left out stands in the gaps."""
+        found = np.array(points, dtype=np.float64)
+        for axis, low, high in self.ranges:
+            gap = min(BETWEEN_MM / factor, LEAST_LEFT_OUT * (high - low))
+            found[:, axis] -= np.clip((points[:, axis] - low) / (high - low), 0.0, 1.0) * (high - low - gap)
+        return found
+
+    def check_shown(self, points: Floats, what: str) -> None:
+        """InputError for points (n,3), of a thing, in what is left out."""
+        for axis, low, high in self.ranges:
+            if ((points[:, axis] > low) & (points[:, axis] < high)).any():
+                raise InputError(f"{what}: in what is left out, {'xyz'[axis]}={low:g}..{high:g}")
+
+    def kept(self, axis: int) -> tuple[tuple[float, float], ...]:
+        """From where to where along an axis the part is shown."""
+        own = [(low, high) for one, low, high in self.ranges if one == axis]
+        starts, ends = [-math.inf, *(high for _, high in own)], [*(low for low, _ in own), math.inf]
+        return tuple(zip(starts, ends, strict=True))
+
+
+def break_line(low: float, high: float) -> Floats:
+    """(k,2) a break line across a part from low to high on the page, along y: with zigzags, about x = 0."""
+    count = max(1, int((high - low) / ZIGZAGS_MM))
+    points = [(0.0, low - BREAK_BEYOND_MM)]
+    size = min(ZIGZAG_MM, 0.25 * (high - low))
+    for number in range(count):
+        middle = low + (number + 0.5) * (high - low) / count
+        points += [
+            (0.0, middle - size),
+            (-size, middle - 0.3 * size),
+            (size, middle + 0.3 * size),
+            (0.0, middle + size),
+        ]
+    return np.array([*points, (0.0, high + BREAK_BEYOND_MM)])
 
 
 # Details and local sections: circles in views, magnified apart, or cut open.

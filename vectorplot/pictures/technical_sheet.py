@@ -8,6 +8,7 @@ import warnings
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
+from itertools import product
 from typing import Any, Literal
 
 import numpy as np
@@ -51,7 +52,9 @@ from vectorplot.pictures.sheet_annotations import (
     balloon_layers,
     centre_lines_of,
     clear_of_each_other,
+    label_moved,
     level_measures,
+    moved_together,
     overall_dimensions,
     parts_of,
     round_edges,
@@ -65,11 +68,13 @@ from vectorplot.pictures.sheet_views import (
     ROOM_MM,
     THIN,
     Arrangement,
+    Interruptions,
     SheetSection,
     SheetView,
     StandardScales,
     ViewCircle,
     Zone,
+    break_line,
     fitting_scale,
     named_layer,
     roomiest,
@@ -77,11 +82,12 @@ from vectorplot.pictures.sheet_views import (
 )
 from vectorplot.scene.annotations import annotation_points, only_annotations
 from vectorplot.scene.exploded import shown_apart
-from vectorplot.scene.labels import Measures
-from vectorplot.scene.page import MM_PER_INCH, Page
+from vectorplot.scene.labels import Along, AtVertex, Measures, OnCurve
+from vectorplot.scene.page import MM_PER_INCH, Page, SheetSettings
 from vectorplot.scene.placement import camera_of, page_of
 from vectorplot.scene.scene import Scene, together
-from vectorplot.tolerances import SAME_PLANE_OF_EXTENT
+from vectorplot.scene.surface_lines import NO_LINES
+from vectorplot.tolerances import EDGE_ON_SINE, SAME_PLANE_OF_EXTENT
 from vectorplot.words import TEXT_WORDS, check_word, unknown
 
 # The verb technical_sheet: main views of a part, side by side on one sheet, at one exact scale.
@@ -129,6 +135,7 @@ class _Part:
     breakouts: tuple[ViewCircle, ...]
     level: bool
     parts: tuple[AssemblyPart, ...]
+    left_out: Interruptions
 
     @property
     def balloons_in(self) -> str:
@@ -144,6 +151,22 @@ class _Part:
         """(3,) of the part."""
         return np.asarray(self.bounds.mean(axis=0))
 
+    def whole_reach(self, camera: Camera) -> Floats:
+        """(2,2) how far it reaches from its middle across a view, with nothing left out."""
+        return np.tile(matmul(np.abs(camera.axes[:2]), 0.5 * np.ptp(self.bounds, axis=0)), (2, 1))
+
+    def shown(self, points: Floats, factor: float) -> Floats:
+        """(n,3) where points are in what is shown of the part, from its middle."""
+        return np.asarray(self.left_out.moved(points, factor) - self.shown_middle(factor))
+
+    def shown_bounds(self, factor: float) -> Floats:
+        """(2,3) of what is shown of the part, moved together."""
+        return self.left_out.moved(self.bounds, factor)
+
+    def shown_middle(self, factor: float) -> Floats:
+        """(3,) of that."""
+        return np.asarray(self.shown_bounds(factor).mean(axis=0))
+
     def notes(self, factor: float) -> dict[str, list[Annotation]]:
         """The annotations of each view, clear of each other where a unit of the world is so many mm on paper, and
         centre lines of each section; a pictorial view has none."""
@@ -157,20 +180,34 @@ class _Part:
         return {name: [] for name in self.names} | notes
 
     def centre_lines_in(self, section: SheetSection, extent: float) -> list[Annotation]:
-        """The centre lines that a section shows: those in its planes, and the marks of circles along it."""
+        """The centre lines that a section shows: those in its planes, and the marks of circles behind these."""
         camera = camera_of(section.like, self.scene)
         square = [one for one in self.annotations if one.is_in_every_view and one.is_square_to(camera, extent)]
-        off = [float(section.offset_near(one.points).max()) for one in square]
         zero = SAME_PLANE_OF_EXTENT * extent
-        return [one for one, far in zip(square, off, strict=True) if one.is_mark or far <= zero]
+        marks = [one.is_mark and self._is_behind(one, section, camera, zero) for one in square]
+        off = [float(section.offset_near(one.points).max()) for one in square]
+        return [one for one, kept, far in zip(square, marks, off, strict=True) if kept or far <= zero]
 
-    def reach(self, camera: Camera, scenes: Iterable[Scene]) -> Floats:
+    def _is_behind(self, mark: Annotation, section: SheetSection, camera: Camera, zero: float) -> bool:
+        """Whether a section leaves something of the circles along the axis of a centre mark."""
+        axis, centre = section.axis, mark.points.mean(axis=0)
+        offset = section.zone_at(centre).offset
+        if offset is None or section.hinge is not None:
+            return True
+        along = [edge.centre for edge in self.edges if edge.axis == axis]
+        places = [place[axis] for place in along if float(np.abs(np.delete(centre - place, axis)).max()) <= zero]
+        towards = float(camera.axes[2, axis])
+        # Marks of no round edges are where the user wants them.
+        return not places or min(towards * (place - offset) for place in places) <= zero
+
+    def reach(self, camera: Camera, scenes: Iterable[Scene], factor: float) -> Floats:
         """(2,2) how far scenes reach from the middle of the part across a view, in the world."""
         found = []
         for scene in scenes:
-            middle, half = scene.bounds.mean(axis=0), 0.5 * np.ptp(scene.bounds, axis=0)
+            bounds = self.left_out.moved(scene.bounds, factor)
+            middle, half = bounds.mean(axis=0), 0.5 * np.ptp(bounds, axis=0)
             flat = camera.axes[:2]
-            away, wide = matmul(flat, middle - self.middle), matmul(np.abs(flat), half)
+            away, wide = matmul(flat, middle - self.shown_middle(factor)), matmul(np.abs(flat), half)
             found.append([wide - away, wide + away])
         return np.asarray(np.max(found, axis=0))
 
@@ -180,16 +217,16 @@ class _Part:
         found = []
         for name, camera in zip(self.names, self.cameras, strict=True):
             rooms = [one.line_room_mm(camera) for one in self.sections if one.told_in(self.names) == name]
-            world = self.reach(camera, [self.scene])
+            world = self.reach(camera, [self.scene], factor)
             if self.parts and name == self.balloons_in:
                 rooms.append(np.tile([BALLOONS_ROOM_MM, 0.0], (2, 1)))
-            found.append(self._view(name, camera, "", world, notes[name], rooms))
+            found.append(self._view(name, camera, "", world, notes[name], rooms, factor))
         above = [np.array([(0.0, 0.0), (0.0, ROOM_MM)])]
         for section in self.sections:
             camera = camera_of(section.like, self.scene)
-            world = self.reach(camera, [section.shown(self.scene, zone) for zone in section.zones])
+            world = self.reach(camera, [section.shown(self.scene, zone) for zone in section.zones], factor)
             beyond = [np.array([(0.0, 0.0), (0.0, ROOM_MM + SEAM_MM * section.is_half)])]
-            found.append(self._view(section.letter, camera, section.like, world, notes[section.letter], beyond))
+            found.append(self._view(section.letter, camera, section.like, world, notes[section.letter], beyond, factor))
         for one in self.details:
             scale = 0.0 if one.scale is None else one.scale.factor
             world = np.full((2, 2), LARGER * one.radius * (one.scale is None))
@@ -207,10 +244,11 @@ class _Part:
         world: Floats,
         notes: Sequence[Annotation],
         rooms: Sequence[Floats],
+        factor: float,
     ) -> SheetView:
         """A view that reaches so far with its annotations; rooms: what is around it."""
         for one in notes:
-            places = matmul(one.points - self.middle, camera.axes[:2].T)
+            places = matmul(self.shown(one.points, factor), camera.axes[:2].T)
             world = np.maximum(world, [-places.min(axis=0), places.max(axis=0)])
         # Cutting lines end outside of dimensions.
         mm = np.maximum(TEXT_MM if notes or self.scene.labels else 0.0, self.overall_room_mm(name, camera))
@@ -229,7 +267,7 @@ class _Part:
 
     def on_page(self, camera: Camera, point: Sequence[float] | Floats, factor: float) -> Floats:
         """(2,) where a point of the world is in a view, in mm from the middle of the part."""
-        return factor * matmul(camera.axes[:2], np.asarray(point) - self.middle)
+        return factor * matmul(camera.axes[:2], self.shown(np.array([point], dtype=np.float64), factor)[0])
 
 
 @dataclass(frozen=True, eq=False)
@@ -246,38 +284,115 @@ class _Views:
 
     def drawing(self, view: SheetView, notes: Sequence[Scene]) -> Drawing:
         """A view with its notes, whose middle is that of the part."""
-        part = self.part
-        width, height = (2.0 * (view.reach_mm(self.factor).max(axis=0) + BORDER_MM)).tolist()
-        page, middle = Page(width, height, 0.0), 0.5 * np.array([width, height])
-        section = next((one for one in part.sections if one.letter == view.name), None)
-        rings = [one for one in part.breakouts if one.view == view.name]
-        hidden: Hidden = "dashed" if view.name in part.names and view.name != "iso" else "none"
+        page = self._page(view.reach_mm(self.factor))
+        if self.part.left_out.ranges:
+            moved = partial(self.part.left_out.moved, factor=self.factor)
+            bare = replace(self, part=replace(self.part, scene=_labels_alone(self.part.scene, moved)))
+            near = [moved_together(one, moved) for one in notes]
+            return bare._with_notes([self._interrupted(view, notes, page)], self._aimed(view.camera), page, near)
+        section = self._section(view)
+        if any(one.view == view.name for one in self.part.breakouts) or (section and len(section.zones) > 1):
+            return self._with_notes(self._parts(view, notes, page), view.camera, page, notes)
+        return self._drawn(self._cut_scene(view), view.camera, page, notes, self._hidden(view))
+
+    @staticmethod
+    def _page(reach_mm: Floats) -> Page:
+        """A page for what reaches so far (2,2) from its middle, with a border."""
+        width, height = (2.0 * (reach_mm.max(axis=0) + BORDER_MM)).tolist()
+        return Page(width, height, 0.0)
+
+    def _section(self, view: SheetView) -> SheetSection | None:
+        return next((one for one in self.part.sections if one.letter == view.name), None)
+
+    def _hidden(self, view: SheetView) -> Hidden:
+        return "dashed" if view.name in self.part.names and view.name != "iso" else "none"
+
+    def _cut_scene(self, view: SheetView) -> Scene:
+        """The part, in a section behind its plane."""
+        section = self._section(view)
+        scene = self.part.scene
+        return scene if section is None else self._cut(scene, section.condition(section.zones[0]), view.camera)
+
+    def _parts(self, view: SheetView, notes: Sequence[Scene], page: Page) -> list[Drawing]:
+        """What a view shows without its notes, which are there, as polylines on a page."""
+        part, section = self.part, self._section(view)
         if section is not None and len(section.zones) > 1:
             found = [self._zone(section, zone, view.camera, page) for zone in section.zones]
-            return self._with_notes([*found, *self._seam(section, view, notes, page)], view.camera, page, notes)
-        if section is not None:
-            return self._drawn(
-                self._cut(part.scene, section.condition(section.zones[0]), view.camera),
-                view.camera,
-                page,
-                notes,
-                hidden,
-            )
-        if not rings:
-            return self._drawn(part.scene, view.camera, page, notes, hidden)
-        whole = self._drawn(part.scene, view.camera, page, (), hidden, curves="polyline")
+            return [*found, *self._seam(section, view, notes, page)]
+        whole = self._drawn(
+            replace(self._cut_scene(view), labels=()), view.camera, page, (), self._hidden(view), curves="polyline"
+        )
         found = []
-        for one in rings:
-            ring = one.waving_ring(
-                middle + part.on_page(view.camera, one.centre, self.factor), self.factor * one.radius
-            )
+        middle = 0.5 * np.array([page.width_mm, page.height_mm])
+        for one in (one for one in part.breakouts if one.view == view.name):
+            away = self.factor * matmul(view.camera.axes[:2], np.array(one.centre) - part.middle)
+            ring = one.waving_ring(middle + away, self.factor * one.radius)
             axis = int(np.argmax(np.abs(view.camera.axes[2])))
             opened = self._cut(part.scene, f"{'xyz'[axis]} = {one.centre[axis]!r}", view.camera)
-            inner = self._drawn(opened, view.camera, page, (), "none", curves="polyline")
+            inner = self._drawn(replace(opened, labels=()), view.camera, page, (), "none", curves="polyline")
             found.append(_of_strokes(inner, partial(inside_ring, ring=ring)))
             whole = _of_strokes(whole, partial(outside_ring, ring=ring))
             found.append(self._border(ring, view.camera, page))
-        return self._with_notes([whole, *found], view.camera, page, notes)
+        return [whole, *found]
+
+    def _interrupted(self, view: SheetView, notes: Sequence[Scene], page: Page) -> Drawing:
+        """What a view shows of an interrupted part, moved together, with break lines; without its notes."""
+        camera = view.camera
+        flat = np.argmax(np.abs(camera.axes[:2]), axis=1)
+        if float(np.abs(camera.axes[[0, 1], flat]).min()) < 1.0 - EDGE_ON_SINE:
+            return self._drawn(self._in_pieces(camera), self._aimed(camera), page, (), self._hidden(view))
+        whole = self._page(self.factor * np.maximum(view.world, self.part.whole_reach(camera)) + view.mm)
+        parts = self._parts(view, notes, whole)
+        columns, rows = (self._bands(camera, row, whole, page) for row in (0, 1))
+        sheet = Sheet(page)
+        for column, row in product(columns, rows):
+            box = (column.low, row.low, column.high, row.high)
+            for one in parts:
+                sheet = sheet.place(_of_strokes(one, partial(clipped, rectangle=box)), column.shift, row.shift)
+        outline = self._outline(camera, whole)
+        lines = [
+            *_break_lines(outline, columns, rows, upright=True),
+            *_break_lines(outline, rows, columns, upright=False),
+        ]
+        breaks = Drawing(page.width_mm, page.height_mm, (Layer("thin", THIN, (page_strokes(lines),)),), ())
+        return sheet.place(breaks, 0.0, 0.0).drawing()
+
+    def _bands(self, camera: Camera, row: int, whole: Page, page: Page) -> list[_Band]:
+        """What is shown of the part, in a direction on the page (0: rightwards, 1: upwards) along one of its axes."""
+        part = self.part
+        axis = int(np.argmax(np.abs(camera.axes[row])))
+        scale = math.copysign(self.factor, camera.axes[row, axis])
+        sizes = [(one.width_mm, one.height_mm)[row] for one in (whole, page)]
+        middles = [float(middle[axis]) for middle in (part.middle, part.shown_middle(self.factor))]
+        found = []
+        for ends in part.left_out.kept(axis):
+            places = [0.5 * sizes[0] + scale * (end - middles[0]) for end in ends]
+            low, high = (min(max(place, 0.0), sizes[0]) for place in sorted(places))
+            one = next((end for end in ends if math.isfinite(end)), middles[0])
+            moved = float(part.left_out.moved(np.full((1, 3), one), self.factor)[0, axis])
+            shift = 0.5 * (sizes[1] - sizes[0]) + scale * ((moved - middles[1]) - (one - middles[0]))
+            breaks = tuple(place for place in places if math.isfinite(place))
+            found.append(_Band(low, high, shift, breaks))
+        return found
+
+    def _in_pieces(self, camera: Camera) -> Scene:
+        """What is shown of an interrupted part, in space."""
+        part, pieces = self.part, []
+        for kept in product(*(part.left_out.kept(axis) for axis in range(3))):
+            sides = [(axis, sign, end) for axis, ends in enumerate(kept) for sign, end in zip("<>", ends, strict=True)]
+            gone = [f"{'xyz'[axis]} {sign} {end!r}" for axis, sign, end in sides if math.isfinite(end)]
+            left = cut_scene(cut(replace(part.scene, labels=()), gone), camera, _page_at(self.factor))
+            items = [replace(one, curves=NO_LINES) if one.is_cut_face else one for one in left.items]
+            at = np.array([[next((end for end in ends if math.isfinite(end)), 0.0) for ends in kept]])
+            way = (part.left_out.moved(at, self.factor) - at)[0]
+            pieces.append(replace(left, items=tuple(items)).moved(*way.tolist()))
+        return together(pieces)
+
+    def _aimed(self, camera: Camera) -> Camera:
+        """A camera of a view, at the middle of what is shown of the part."""
+        way = self.part.shown_middle(self.factor) - self.part.middle
+        (x, y, z), (u, v, w) = ((np.asarray(place) + way).tolist() for place in (camera.eye, camera.target))
+        return replace(camera, eye=(x, y, z), target=(u, v, w))
 
     def detail(self, one: ViewCircle, notes: Sequence[Scene]) -> Drawing:
         """A detail with its circle, in the middle of its page; notes: the centre lines of its view."""
@@ -370,6 +485,15 @@ class _Views:
         """The border of a local section, as far as it is on the part."""
         import shapely
 
+        line = shapely.line_merge(shapely.intersection(shapely.LinearRing(ring), self._outline(camera, page)))
+        parts = [shapely.get_coordinates(part) for part in shapely.get_parts(line)]
+        layer = Layer("thin", THIN, (page_strokes([part for part in parts if len(part) > 1]),))
+        return Drawing(page.width_mm, page.height_mm, (layer,), ())
+
+    def _outline(self, camera: Camera, page: Page) -> Any:
+        """The region of shapely that the part covers in a view."""
+        import shapely
+
         outline = draw(
             replace(self.part.scene, labels=()),
             replace(camera, height=page.height_mm / self.factor),
@@ -382,10 +506,7 @@ class _Views:
         for paths in (paths for layer in outline.layers for paths in layer.strokes):
             for stroke in np.split(paths.points, paths.offsets[1:-1]):
                 region = shapely.symmetric_difference(region, shapely.Polygon(stroke))
-        line = shapely.line_merge(shapely.intersection(shapely.LinearRing(ring), region))
-        parts = [shapely.get_coordinates(part) for part in shapely.get_parts(line)]
-        layer = Layer("thin", THIN, (page_strokes([part for part in parts if len(part) > 1]),))
-        return Drawing(page.width_mm, page.height_mm, (layer,), ())
+        return region
 
     def _with_notes(self, drawings: Sequence[Drawing], camera: Camera, page: Page, notes: Sequence[Scene]) -> Drawing:
         """Drawings on one page, and notes of the view over them."""
@@ -396,6 +517,52 @@ class _Views:
             with_lines = only_annotations(together([self.part.scene, *notes]))
             sheet = sheet.place(self._drawn(with_lines, camera, page, (), "none"), 0.0, 0.0)
         return sheet.drawing()
+
+
+@dataclass(frozen=True)
+class _Band:
+    """What is shown of an interrupted part: from low to high on the page of the whole, in one direction; how far it is
+    moved to its page; and where its breaks are on that of the whole."""
+
+    low: float
+    high: float
+    shift: float
+    breaks: tuple[float, ...]
+
+
+def _break_lines(region: Any, bands: Sequence[_Band], across: Sequence[_Band], *, upright: bool) -> list[Floats]:
+    """Break lines (k,2) at the ends of bands, where a region of shapely is in bands across them."""
+    import shapely
+
+    found = []
+    for band, side in product(bands, across):
+        for place in band.breaks:
+            ends = np.array([(place, side.low), (place, side.high)])
+            line = shapely.intersection(region, shapely.LineString(ends if upright else ends[:, ::-1]))
+            for part in shapely.get_parts(line):
+                along = shapely.get_coordinates(part)[:, 1 if upright else 0]
+                if len(along) < 2:
+                    continue
+                low, high = float(along.min()), float(along.max())
+                points = break_line(low + side.shift, high + side.shift) + np.array([place + band.shift, 0.0])
+                found.append(points if upright else points[:, ::-1])
+    return found
+
+
+def _labels_alone(scene: Scene, moved: Callable[[Floats], Floats]) -> Scene:
+    """The labels of a part without it, where its points (n,3) have moved.
+
+    Errors: InputError for labels of curves."""
+    items = {item.name: item for item in scene.items}
+    labels = []
+    for label in scene.labels:
+        if isinstance(label.at, OnCurve | Along):
+            raise InputError(f"label {label.name}: no curve of an interrupted part has labels")
+        if isinstance(label.at, AtVertex) and label.at.item in items:
+            x, y, z = items[label.at.item].mesh.vertices[label.at.vertex].tolist()
+            label = replace(label, at=(x, y, z))
+        labels.append(label_moved(label, moved))
+    return replace(scene, items=(), labels=tuple(labels))
 
 
 def _of_strokes(drawing: Drawing, kept: Callable[[Paths], Paths]) -> Drawing:
@@ -411,33 +578,35 @@ def _of_strokes(drawing: Drawing, kept: Callable[[Paths], Paths]) -> Drawing:
 def technical_sheet(
     scene: object,
     *,
-    views: str | Iterable[str] = "front,top,left,iso",
+    views: str | Iterable[str] | None = None,
     up: Point | None = None,
-    scale: str = "fit",
-    unit: str = "mm",
-    standard: Literal["iso", "asme"] = "iso",
+    scale: str | None = None,
+    unit: str | None = None,
+    standard: Literal["iso", "asme"] | None = None,
     measured_in: str | None = None,
     decimals: int | None = None,
     zeros: bool | None = None,
     comma: bool | None = None,
     projection: Literal["first", "third"] | None = None,
     page: Page | str | None = None,
-    section: str | Iterable[str] = (),
+    section: str | Iterable[str] | None = None,
     cut_spacing_mm: float | None = None,
-    detail_view: str | Iterable[str] = (),
-    breakout: str | Iterable[str] = (),
-    dimensions: bool = False,
-    centre_lines: bool = False,
-    frame: bool = False,
-    block: bool = True,
+    detail_view: str | Iterable[str] | None = None,
+    breakout: str | Iterable[str] | None = None,
+    interrupted: str | Iterable[str] | None = None,
+    dimensions: bool | None = None,
+    centre_lines: bool | None = None,
+    frame: bool | None = None,
+    block: bool | None = None,
     title: str | None = None,
-    author: str = "",
-    date: str = "",
+    author: str | None = None,
+    date: str | None = None,
     sheet: str = "1",
     fields: Mapping[str, str] | None = None,
     block_template: str | os.PathLike[str] | None = None,
-    balloons: bool = False,
-    parts_list: bool = False,
+    balloons: bool | None = None,
+    parts_list: bool | None = None,
+    made_of: Mapping[str, str] | None = None,
     text: Literal["strokes", "real"] = "strokes",
     crease_angle_deg: float = 25.0,
     shortest_mm: float | None = None,
@@ -489,6 +658,9 @@ def technical_sheet(
         apart, larger, at the next standard scale or at one of its own, as in "A:20,0,8,6,5:1".
     breakout : str or iterable of str
         The same, for local sections: inside of the circle the part is cut through the point, across the view.
+    interrupted : str or iterable of str
+        What is left out of a long part, such as "x=40..160": the rest moves together, with break lines between, and
+        measures stay what they are. Aligned sections do not go with it.
     dimensions : bool
         How long the whole part is along x, y and z, each in one view.
     centre_lines : bool
@@ -510,6 +682,8 @@ def technical_sheet(
     parts_list : bool
         A list of these parts stands on the title block, with how many there are of each: items of one group are one
         part, those whose names differ by a number at the end and that have one shape are the same.
+    made_of : mapping of str to str, optional
+        The materials of parts, by their names: a column of that list.
     text : {"strokes", "real"}
         See draw.
     crease_angle_deg : float
@@ -539,7 +713,8 @@ def technical_sheet(
 
     Notes
     -----
-    The isometric view is a projection at the same scale: edges along the axes are 0.816 times as long in it.
+    What is None is as the scene says (`Scene.sheet`), or else as is usual. The isometric view is a projection at the
+    same scale: edges along the axes are 0.816 times as long in it.
 
     Edge cases: a scene without extent is drawn 1:1.
 
@@ -554,41 +729,76 @@ def technical_sheet(
     >>> sheet.width_mm, sheet.height_mm, sheet.title
     (297.0, 210.0, 'Corner, 1:1')
     """
-    names = _view_names(views)
-    check_word("standard", standard, STANDARDS)
+    shown = shown_apart(scene_of(scene))
+    of_scene = shown.sheet or SheetSettings()
+    asked = SheetSettings(
+        views=_texts(views, ","),
+        scale=scale,
+        unit=unit,
+        standard=standard,
+        measured_in=measured_in,
+        projection=projection,
+        section=_texts(section),
+        detail_view=_texts(detail_view),
+        breakout=_texts(breakout),
+        interrupted=_texts(interrupted),
+        dimensions=dimensions,
+        centre_lines=centre_lines,
+        frame=frame,
+        block=block,
+        author=author,
+        date=date,
+        fields=tuple({**dict(of_scene.fields or ()), **(fields or {})}.items()),
+        made_of=tuple({**dict(of_scene.made_of or ()), **(made_of or {})}.items()),
+        block_template=None if block_template is None else os.fspath(block_template),
+        balloons=balloons,
+        parts_list=parts_list,
+    )
+    told = asked.or_else(of_scene).or_else(USUAL)
+    names = _view_names(told.views or ())
+    check_word("standard", told.standard, STANDARDS)
     check_word("text", text, TEXT_WORDS)
-    usual = STANDARDS[standard]
-    projection = projection or usual.projection
-    check_word("projection", projection, ("first", "third"))
-    page = page or usual.page
-    check_word("unit", unit, MM_PER)
-    written_unit = measured_in or "mm"
+    usual = STANDARDS[str(told.standard)]
+    way = told.projection or usual.projection
+    check_word("projection", way, ("first", "third"))
+    page = page or of_scene.page or usual.page
+    check_word("unit", told.unit, MM_PER)
+    written_unit = told.measured_in or "mm"
     check_word("measured_in", written_unit, MM_PER)
-    asked = None if scale == "fit" else DrawingScale.of(scale)
-    given = shown_apart(scene_of(scene))
-    given = given if unit == "mm" else given.scaled(MM_PER[unit])
+    wanted_scale = None if told.scale == "fit" else DrawingScale.of(str(told.scale))
+    per_unit = MM_PER[str(told.unit)]
+    given = shown if per_unit == 1.0 else shown.scaled(per_unit)
     # Sheets have pens of their own.
     given = replace(given if up is None else stood_up(given, up), inks=None)
     given = replace(given, measures=_measures(given.measures, usual, written_unit, decimals, zeros, comma))
     solid, annotations = without_annotations(given)
     edges: tuple[RoundEdge, ...] = ()
-    if centre_lines or any(one.may_be_of_circle for one in annotations):
+    if told.centre_lines or any(one.may_be_of_circle for one in annotations):
         edges = _round_edges(solid, crease_angle_deg)
-    if centre_lines and edges:
-        extent = float(np.ptp(given.bounds, axis=0).max())
+    left_out = Interruptions.of(told.interrupted or (), solid.bounds)
+    if told.centre_lines and edges:
+        # Without its gaps.
+        extent = float(np.ptp(left_out.moved(given.bounds, math.inf), axis=0).max())
         solid, annotations = without_annotations(together([given, *centre_lines_of(edges, extent)]))
     cameras = tuple(camera_of(name, solid) for name in names)
-    overall = overall_dimensions(names, solid.bounds) if dimensions else ()
-    sections = sections_of(section, names, solid.bounds)
+    overall = overall_dimensions(names, solid.bounds) if told.dimensions else ()
+    sections = sections_of(told.section or (), names, solid.bounds)
     circled = (*names, *(one.letter for one in sections))
-    texts = [detail_view] if isinstance(detail_view, str) else list(detail_view)
+    texts = told.detail_view or ()
     letters = LETTERS[len(sections) :]
     if len(texts) > len(letters):
         raise InputError(f"{len(sections)} sections and {len(texts)} details: expected at most {len(LETTERS)}")
     details = tuple(ViewCircle.of(text, "detail", circled, one) for text, one in zip(texts, letters, strict=False))
-    opened = [breakout] if isinstance(breakout, str) else list(breakout)
-    breakouts = tuple(ViewCircle.of(text, "breakout", [name for name in names if name != "iso"]) for text in opened)
-    listed = parts_of(solid) if balloons or parts_list else ()
+    breakouts = tuple(
+        ViewCircle.of(text, "breakout", [name for name in names if name != "iso"]) for text in told.breakout or ()
+    )
+    for what, place in [
+        *((f"detail {one.letter}", one.centre) for one in details),
+        *(("breakout", one.centre) for one in breakouts),
+    ]:
+        left_out.check_shown(np.array([place]), what)
+    _check_sections(sections, left_out)
+    listed = parts_of(solid) if told.balloons or told.parts_list else ()
     part = _Part(
         solid,
         annotations,
@@ -600,27 +810,35 @@ def technical_sheet(
         details,
         breakouts,
         usual.level,
-        listed if balloons else (),
+        listed if told.balloons else (),
+        left_out,
     )
-    given_page, first = page, projection == "first"
+    given_page, first = page, way == "first"
     size = page.strip().split()[0].upper() if isinstance(page, str) else f"{page.width_mm:g}x{page.height_mm:g}"
     said = given.title if title is None else title
-    known = {"title": said, "author": author, "date": date, "sheet": sheet, "unit": written_unit, "size": size}
-    template = BLOCK if block_template is None else read_template(block_template)
-    rows = [(str(k), str(len(one.pieces)), one.name) for k, one in enumerate(listed, start=1)] if parts_list else []
-    words = TitleBlock(known, projection, dict(fields or {}), template, tuple(rows))
-    taken = np.array(words.size_mm if block else (0.0, 0.0))
+    known = {
+        "title": said,
+        "author": told.author or "",
+        "date": told.date or "",
+        "sheet": sheet,
+        "unit": written_unit,
+        "size": size,
+    }
+    template = BLOCK if told.block_template is None else read_template(told.block_template)
+    rows = _rows_of_list(listed, dict(told.made_of or ())) if told.parts_list else ()
+    words = TitleBlock(known, way, dict(told.fields or ()), template, rows)
+    taken = np.array(words.size_mm if told.block else (0.0, 0.0))
 
     def room(views: Sequence[SheetView], allowed: StandardScales) -> tuple[Page, Arrangement]:
-        return roomiest(given_page, views, frame, first, taken, allowed)
+        return roomiest(given_page, views, bool(told.frame), first, taken, allowed)
 
-    paper, arranged, chosen = _arranged(part, StandardScales(usual.steps, asked), room)
+    paper, arranged, chosen = _arranged(part, StandardScales(usual.steps, wanted_scale), room)
     factor = chosen.factor
     words = replace(words, words={**known, "scale": str(chosen)})
     plain = LETTERS_OF[text].plain
     # A title that nobody asked for here may be too long, or in letters without strokes.
     written_in = words.layers_titled_if_possible if title is None else words.layers
-    layers = written_in(drawing_space(paper, frame), plain) if block else ()
+    layers = written_in(drawing_space(paper, bool(told.frame)), plain) if told.block else ()
     done = Sheet(paper, f"{said}, {chosen}" if said else str(chosen))
     notes = part.notes(factor)
     _tell_left_out(annotations, notes.values())
@@ -647,11 +865,11 @@ def technical_sheet(
         corner = (x - 0.5 * drawn.width_mm, y - 0.5 * drawn.height_mm)
         written[view.name] = written_on(drawn) + corner
         done = done.place(drawn, *corner)
-        if balloons and view.name == part.balloons_in:
+        if told.balloons and view.name == part.balloons_in:
             moved = Sheet(paper).place(drawn, *corner).drawing()
             around += balloon_layers(listed, moved, view.reach_mm(factor) - [BALLOONS_ROOM_MM, 0.0], (x, y), plain)
     around += _around(part, placed, factor, written, done.drawing(), plain)
-    borders = (*(frame_layers(paper, plain, (taken[0], taken[1])) if frame else ()), *layers)
+    borders = (*(frame_layers(paper, plain, (taken[0], taken[1])) if told.frame else ()), *layers)
     return done.place(Drawing(paper.width_mm, paper.height_mm, (*around, *borders), ()), 0.0, 0.0).drawing()
 
 
@@ -694,10 +912,9 @@ def _around(
         name = section.told_in(part.names)
         if name is not None:
             other, place = placed[name]
-            room = part.overall_room_mm(name, other.camera)
-            found += section.line_layers(
-                other.camera, view.camera, part.bounds, place, factor, room, written[name], plain
-            )
+            room, shown = part.overall_room_mm(name, other.camera), part.shown_bounds(factor)
+            line = section.interrupted(part.left_out, factor)
+            found += line.line_layers(other.camera, view.camera, shown, place, factor, room, written[name], plain)
     for one in part.details:
         x, y = placed[one.letter][1]
         top = y + one.factor(factor) * one.radius
@@ -706,6 +923,10 @@ def _around(
         middle = np.array(place) + part.on_page(view.camera, one.centre, factor)
         found += one.layers(middle, factor * one.radius, lines, plain)
     return tuple(found)
+
+
+USUAL = SheetSettings(views=("front", "top", "left", "iso"), scale="fit", unit="mm", standard="iso", block=True)
+"""What sheets are like where nothing else is said."""
 
 
 @dataclass(frozen=True)
@@ -745,12 +966,39 @@ def _measures(
     )
 
 
+def _rows_of_list(parts: Sequence[AssemblyPart], made_of: Mapping[str, str]) -> tuple[tuple[str, ...], ...]:
+    """Number, quantity and name of each part, and what it is made of if that is said of any.
+
+    Errors: InputError for what is said of no part."""
+    names = [one.name for one in parts]
+    for name in made_of:
+        if name not in names:
+            raise unknown("made of: part", name, names)
+    rows = [(str(k), str(len(one.pieces)), one.name) for k, one in enumerate(parts, start=1)]
+    return tuple((*row, made_of.get(row[2], "")) for row in rows) if made_of else tuple(rows)
+
+
 def _tell_left_out(annotations: Iterable[Annotation], notes: Iterable[Iterable[Annotation]]) -> None:
     """An InputWarning that names the annotations, but for centre lines, which are in no view."""
     shown = {one.name for view in notes for one in view}
     names = [one.name for one in annotations if not one.is_in_every_view and one.name not in shown]
     if names:
         warnings.warn(f"square to no view and not shown: {', '.join(names)}", InputWarning, stacklevel=3)
+
+
+def _check_sections(sections: Iterable[SheetSection], left_out: Interruptions) -> None:
+    """InputError for sections in what is left out, and aligned ones of an interrupted part."""
+    for section in sections if left_out.ranges else ():
+        if section.hinge is not None:
+            raise InputError(
+                f"section {section.letter}-{section.letter}: aligned sections and interrupted views exclude each other"
+            )
+        for zone in section.zones:
+            for axis, place in ((section.axis, zone.offset), (section.across, zone.high)):
+                if place is not None and math.isfinite(place):
+                    at = np.full((1, 3), math.nan)
+                    at[0, axis] = place
+                    left_out.check_shown(at, f"section {section.letter}-{section.letter}")
 
 
 def _page_at(factor: float) -> Callable[[Scene], InSpace]:
@@ -764,8 +1012,17 @@ def _round_edges(scene: Scene, crease_angle_deg: float) -> tuple[RoundEdge, ...]
     return tuple(edge for mesh in meshes for edge in round_edges(mesh, crease_angle_deg))
 
 
-def _view_names(views: str | Iterable[str]) -> tuple[str, ...]:
-    names = tuple(word.strip() for word in (views.split(",") if isinstance(views, str) else views))
+def _texts(given: str | Iterable[str] | None, between: str = "") -> tuple[str, ...] | None:
+    """Texts that are one, with signs between them if there are such, or several."""
+    if given is None:
+        return None
+    if not isinstance(given, str):
+        return tuple(given)
+    return tuple(given.split(between)) if between else (given,)
+
+
+def _view_names(views: Iterable[str]) -> tuple[str, ...]:
+    names = tuple(word.strip() for word in views)
     for name in names:
         if name not in VIEWS:
             raise unknown("view", name, VIEWS)

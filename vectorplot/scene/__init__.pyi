@@ -3,6 +3,7 @@ from .annotations import field_arrows
 from .cuts import Cut, CutPlane
 from .face_looks import FaceLook, FaceLooks
 from .item import SurfaceNormals
+from .page import SheetSettings
 from .pens import DepthCue, PenOverrides
 from .scales import BoxAxes, Colouring, Fields, ScaleBar
 from .surface_lines import (
@@ -40,6 +41,7 @@ __all__ = [
     "Roads",
     "ScaleBar",
     "Serpentine",
+    "SheetSettings",
     "ShortestPaths",
     "SurfaceNormals",
     "WaterCourses",

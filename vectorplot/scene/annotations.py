@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -32,6 +32,7 @@ from vectorplot.scene.labels import (
     capital_height,
 )
 from vectorplot.scene.scene import Scene, together
+from vectorplot.surfaces.surface import is_parametrised
 from vectorplot.tolerances import ROUNDING
 
 # Arrows and axes: curves in space, hidden like any others, and labels at them.
@@ -88,18 +89,29 @@ MOST_ARROWS = 5000
 """Of one field."""
 
 
-def field_arrows(item: Item, name: str, *, apart: float | None = None, longest: float | None = None) -> Scene:
-    """Arrows along the vectors of a field, at vertices of a mesh.
+SITES = 128
+"""Columns and rows of places on a surface among which those of arrows are chosen."""
+
+
+def field_arrows(
+    item: Item,
+    field: str | Callable[[Floats], ArrayLike],
+    *,
+    apart: float | None = None,
+    longest: float | None = None,
+) -> Scene:
+    """Arrows along the vectors of a field, at vertices of a mesh or places on a surface.
 
     Parameters
     ----------
     item : Item
-        With a mesh and the field.
-    name : str
-        Of a field of vectors, with the parts name.x, name.y and name.z.
+        A mesh or a parametrised surface.
+    field : str or callable
+        The name of a field of vectors of a mesh, with the parts name.x, name.y and name.z; or what takes points (k, 3)
+        in the world to vectors (k, 3).
     apart : float, optional
-        One arrow for each cube with such an edge, at its vertex that comes first; a sixteenth of the extent of the mesh
-        where None.
+        One arrow for each cube with such an edge, of a mesh at its vertex that comes first, of a surface at the place
+        nearest to its middle; a sixteenth of the extent where None.
     longest : float, optional
         The length of the longest one in world units, the others in proportion; as long as they are apart where None.
 
@@ -111,7 +123,8 @@ def field_arrows(item: Item, name: str, *, apart: float | None = None, longest: 
     Raises
     ------
     InputError
-        For a field that the item has not, lengths that are not positive, and more than 5000 arrows.
+        For a field that the item has not, a function that gives other than (k, 3) numbers, an implicit surface or a
+        curve, lengths that are not positive, and more than 5000 arrows.
 
     Notes
     -----
@@ -127,18 +140,22 @@ def field_arrows(item: Item, name: str, *, apart: float | None = None, longest: 
     >>> len(field_arrows(vp.Item("square", square, fields=wind), "wind"))
     3
     """
-    if item.fields is None:
-        raise InputError(f"{item.name}: there is no field {name!r}: the item has none")
-    points = item.mesh.vertices
+    points = _sites(item)
+    name = field if isinstance(field, str) else "field"
     extent = float(np.ptp(points, axis=0).max()) if len(points) else 0.0
     step = extent / 16.0 if apart is None else apart
     long = step if longest is None else longest
     if not (0.0 < step < np.inf and 0.0 < long < np.inf):
         raise InputError(f"arrows of {name}: expected positive lengths, got {step:g} apart and {long:g} long")
-    vectors = item.fields.vectors(name)(points)
+    vectors = _vectors_at(item, field, points)
     sizes = np.sqrt(component_sum(vectors * vectors))
     there = np.flatnonzero(np.isfinite(sizes) & (sizes > 0.0))
-    cells = np.floor((points[there] - points.min(axis=0, initial=np.inf)) / step + ROUNDING)
+    places = (points[there] - points.min(axis=0, initial=np.inf)) / step + ROUNDING
+    cells = np.floor(places)
+    if not isinstance(item.shape, Mesh):
+        away = places - cells - 0.5
+        order = np.argsort(component_sum(away * away), kind="stable")
+        there, cells = there[order], cells[order]
     _, first = np.unique(cells, axis=0, return_index=True)
     if len(first) > MOST_ARROWS:
         raise InputError(f"arrows of {name}: {len(first)} of them, expected {MOST_ARROWS} or fewer: larger 'apart'")
@@ -150,6 +167,29 @@ def field_arrows(item: Item, name: str, *, apart: float | None = None, longest: 
         items.append(line)
         labels.append(Label("", OnCurve(line.name), line.name, mark="arrow"))
     return Scene(tuple(items), labels=tuple(labels))
+
+
+def _sites(item: Item) -> Floats:
+    """(n,3) the vertices of a mesh, or places on a surface."""
+    if isinstance(item.shape, Mesh):
+        return item.mesh.vertices
+    if not is_parametrised(item.shape):
+        raise InputError(f"{item.name}: arrows of a field stand on meshes and parametrised surfaces")
+    u, v = item.shape.domain.grid(SITES, SITES)
+    points = item.shape.points(*np.meshgrid(u, v, indexing="ij")).reshape(-1, 3)
+    return np.asarray(points[np.isfinite(points).all(axis=1)])
+
+
+def _vectors_at(item: Item, field: str | Callable[[Floats], ArrayLike], points: Floats) -> Floats:
+    """(n,3) the vectors of a field, known by its name or as a function, at points."""
+    if not isinstance(field, str):
+        vectors = np.asarray(field(points), dtype=np.float64)
+        if vectors.shape != points.shape:
+            raise InputError(f"{item.name}: a field of vectors gives {points.shape}, not {vectors.shape}")
+        return vectors
+    if item.fields is None:
+        raise InputError(f"{item.name}: there is no field {field!r}: the item has none")
+    return np.asarray(item.fields.vectors(field)(points))
 
 
 def axes(

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from numbers import Real
+from typing import Any
 
 import numpy as np
 
@@ -207,3 +208,82 @@ def scale_ratio(text: str) -> tuple[float, float]:
     if not (0.0 < paper < math.inf and 0.0 < world < math.inf and 0.0 < paper / world < math.inf):
         raise InputError(f"scale {text!r}: expected two numbers such as 1:2")
     return paper, world
+
+
+# What a scene says about its technical sheet.
+
+
+@dataclass(frozen=True)
+class SheetSettings:
+    """What a technical sheet is like, as far as it is said; see `technical_sheet`, whose arguments have these names.
+
+    Parameters
+    ----------
+    views : tuple of str, optional
+        Its main views.
+    scale, unit, standard, measured_in, projection, page : str, optional
+        As the arguments of these names.
+    section, detail_view, breakout, interrupted : tuple of str, optional
+        Sections, details, local sections, and what is left out of long parts.
+    dimensions, centre_lines, frame, block : bool, optional
+        Whether it has them.
+    author, date : str, optional
+        Letters in the title block.
+    fields : tuple of (str, str), optional
+        Names and texts of its free fields.
+    made_of : tuple of (str, str), optional
+        Names of parts, and their materials for the list of parts.
+    block_template : str, optional
+        The file of the title block.
+    balloons, parts_list : bool, optional
+        Whether it has them.
+
+    Examples
+    --------
+    >>> from vectorplot.scene import SheetSettings
+    >>> SheetSettings(scale="1:2").or_else(SheetSettings(scale="1:5", frame=True)).said
+    {'scale': '1:2', 'frame': True}
+    """
+
+    views: tuple[str, ...] | None = None
+    scale: str | None = None
+    unit: str | None = None
+    standard: str | None = None
+    measured_in: str | None = None
+    projection: str | None = None
+    page: str | None = None
+    section: tuple[str, ...] | None = None
+    detail_view: tuple[str, ...] | None = None
+    breakout: tuple[str, ...] | None = None
+    interrupted: tuple[str, ...] | None = None
+    dimensions: bool | None = None
+    centre_lines: bool | None = None
+    frame: bool | None = None
+    block: bool | None = None
+    author: str | None = None
+    date: str | None = None
+    fields: tuple[tuple[str, str], ...] | None = None
+    made_of: tuple[tuple[str, str], ...] | None = None
+    block_template: str | None = None
+    balloons: bool | None = None
+    parts_list: bool | None = None
+
+    @property
+    def said(self) -> dict[str, Any]:
+        """What is said, by the names of the arguments."""
+        return {name: value for name, value in vars(self).items() if value is not None}
+
+    def or_else(self, other: SheetSettings) -> SheetSettings:
+        """These settings, and those of others where these say nothing.
+
+        Parameters
+        ----------
+        other : SheetSettings
+            What counts where nothing is said.
+
+        Returns
+        -------
+        SheetSettings
+            All that either says.
+        """
+        return replace(other, **self.said)

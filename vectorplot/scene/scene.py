@@ -24,7 +24,7 @@ from vectorplot.scene.extent import bounds_of_surfaces, in_range, smooth_bounds
 from vectorplot.scene.item import Item
 from vectorplot.scene.labels import Label, Measures, renamed
 from vectorplot.scene.light import Exposure, Light, check_exposure
-from vectorplot.scene.page import Page
+from vectorplot.scene.page import Page, SheetSettings
 from vectorplot.scene.pens import DepthCue, PenOverrides
 from vectorplot.scene.scales import BoxAxes, Colouring, ScaleBar
 from vectorplot.surfaces.capped_bodies import ball_of, bounds_of_balls, bounds_of_capped_quadrics, capped_quadric_of
@@ -76,6 +76,8 @@ class Scene(Movable["Scene"]):
         bars, are divided by it. Scene files say nothing of it.
     scale_bar : ScaleBar, optional
         A bar below the picture that is as long as a length in it.
+    sheet : SheetSettings, optional
+        What its technical sheet is like, where nothing else is asked for.
 
     Raises
     ------
@@ -112,6 +114,7 @@ class Scene(Movable["Scene"]):
     measures: Measures | None = None
     exaggeration: float = 1.0
     scale_bar: ScaleBar | None = None
+    sheet: SheetSettings | None = None
 
     def __post_init__(self) -> None:
         # The first one tells: a scene may have a million items, and is made anew by every stage.
@@ -247,6 +250,7 @@ def together(scenes: Sequence[Scene]) -> Scene:
         measures=next((scene.measures for scene in scenes if scene.measures), None),
         exaggeration=next((scene.exaggeration for scene in scenes if scene.exaggeration != 1.0), 1.0),
         scale_bar=next((scene.scale_bar for scene in scenes if scene.scale_bar), None),
+        sheet=next((scene.sheet for scene in scenes if scene.sheet), None),
     )
 
 

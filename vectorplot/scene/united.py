@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
@@ -11,11 +12,12 @@ import numpy as np
 from vectorplot.arrays import Floats
 from vectorplot.curves.curve import is_curve
 from vectorplot.errors import InputError
+from vectorplot.features.surface_points import USUAL_CREASE_DEG
 from vectorplot.geometry.boxes import overlapping_pairs
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.solids import zero_distance
 from vectorplot.geometry.unions import polyhedron_union
-from vectorplot.geometry.vectors import cross, norm
+from vectorplot.geometry.vectors import cross, dot, norm
 from vectorplot.geometry.weld import chained
 from vectorplot.geometry.winding import edge_uses
 from vectorplot.scene.item import Item
@@ -132,14 +134,17 @@ def _look(item: Item) -> Hashable:
     return item.colour, item.material, *own
 
 
-def _edges_between_planes(mesh: Mesh) -> Floats:
-    """(e,2,3) the ends of the edges at which faces turn."""
+def _edges_between_planes(mesh: Mesh) -> Floats | None:
+    """(e,2,3) the ends of the edges at which faces turn; none, for all, where some are sides of facets, as of bores:
+    edges that are listed are creases."""
     uses = edge_uses(mesh)
     corner = uses.corner[uses.first]
     next_one = uses.corner[np.minimum(uses.first + 1, max(len(uses.corner) - 1, 0))]
     normals = mesh.face_normals
     one, two = normals[mesh.corner_face[corner]], normals[mesh.corner_face[next_one]]
     turns = (uses.count != 2) | (norm(cross(one, two)) > SAME_PLANE_SINE)
+    if (turns & (dot(one, two) > math.cos(math.radians(USUAL_CREASE_DEG)))).any():
+        return None
     ends = np.stack([mesh.corners[corner], mesh.corners[mesh.next_corner[corner]]], axis=1)
     return np.asarray(mesh.vertices[ends[turns]])
 

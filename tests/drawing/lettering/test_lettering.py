@@ -17,7 +17,7 @@ LATIN = "".join(c for c in map(chr, range(0xC0, 0x180)) if c.isalpha())
 MISSING = "ÐÞðþĸŉŊŋŦŧĿŀſŲų"
 GREEK = "ΑΒΓΔΕΖΗΘΙΚΛΜΝΞΟΠΡΣΤΥΦΧΨΩαβγδεζηθικλμνξοπρστυφχψωςάέήίόύώΐ"
 CYRILLIC = "".join(map(chr, range(0x410, 0x450)))
-SIGNS = "±×·÷≤≥≠∞→↑←↓∂∇∫√∠∥⊥∈°′″…–—−“”‘’„«»⌀µ½²³¹⁰ⁿ₀₁₂€£§•"
+SIGNS = "±×·÷≤≥≠∞→↑←↓∂∇∫√∠∥⊥∈°′″…–—−“”‘’„«»⌀µ½²³¹⁰ⁿ₀₁₂€£§•⌴⌵↧□"
 
 
 @pytest.mark.parametrize("alphabet", [ASCII, GREEK, CYRILLIC, SIGNS], ids=["ascii", "greek", "cyrillic", "signs"])

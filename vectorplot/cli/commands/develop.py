@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
@@ -32,6 +33,23 @@ if TYPE_CHECKING:
     from vectorplot.cli.picture import Report
     from vectorplot.drawing.drawing import Drawing
     from vectorplot.scene.scene import Scene
+
+
+TINY_MM = 10.0
+"""A development that is no larger is hardly what was meant: a unit of its scene is no millimetre."""
+
+
+def _tell_if_tiny(made: Drawing) -> None:
+    """An InputWarning for a development that is tiny, with what makes it larger."""
+    import numpy as np
+
+    from vectorplot.errors import InputWarning
+
+    points = [paths.points for layer in made.layers for paths in layer.strokes if len(paths)]
+    wide, high = np.ptp(np.concatenate(points), axis=0).tolist() if points else (0.0, 0.0)
+    if 0.0 < max(wide, high) < TINY_MM:
+        text = f"the development is {wide:.3g} x {high:.3g} mm: --unit cm or m, or --scale 10:1, makes it larger"
+        warnings.warn(text, InputWarning, stacklevel=2)
 
 
 @click.command(short_help="Unfold bodies and surfaces, to be cut out.", context_settings={"show_default": True})
@@ -72,7 +90,9 @@ def develop(
     beside = [] if told_of_tiles["tiles"] is None else tiles_beside(told_of_tiles, written)
 
     def picture(scene: Scene, report: Report) -> Drawing:
-        return development(scene, **told, progress=report.progress, explain=report.explain)
+        made = development(scene, **told, progress=report.progress, explain=report.explain)
+        _tell_if_tiny(made)
+        return made
 
     jobs = told["jobs"]
     source = Source(scene_file, upright=True)

@@ -22,7 +22,6 @@ from vectorplot.cli.options import (
     QUIET,
     SHORTEST,
     TEXT,
-    UNIT,
     VIEW_WORDS,
     check_overlaid,
     crease_angle_option,
@@ -36,6 +35,7 @@ from vectorplot.cli.picture import ReadSource, Source, make_pages, make_picture,
 if TYPE_CHECKING:
     from vectorplot.cli.picture import Report
     from vectorplot.drawing.drawing import Drawing
+    from vectorplot.scene.page import SheetSettings
     from vectorplot.scene.scene import Scene
 
 
@@ -47,7 +47,10 @@ def _name_of_mesh(path: str) -> str:
     return Path(path).stem if Path(path).suffix.lower() in (*MESH_SUFFIXES, *CAD_SUFFIXES) else ""
 
 
-_OF_ASSEMBLY = {"title": None, "section": (), "detail_view": (), "breakout": (), "balloons": False, "parts_list": False}
+_OF_ASSEMBLY: dict[str, Any] = {
+    **{"title": None, "section": (), "detail_view": (), "breakout": (), "interrupted": ()},
+    **{"balloons": False, "parts_list": False},
+}
 """What the sheets of parts have not, as that of the whole has."""
 
 
@@ -59,27 +62,38 @@ def _field(text: str) -> tuple[str, str]:
     return name.strip(), said
 
 
+def _lying(page: str | None, standard: str | None, said: SheetSettings) -> str:
+    """The page of a sheet on its longer side; said: by the scene."""
+    usual = "tabloid" if (standard or said.standard) == "asme" else "A3"
+    return f"{(page or said.page or usual).split(' ')[0]} landscape"
+
+
 @click.command(short_help="Draw main views of a part on one sheet.", context_settings={"show_default": True})
 @with_options(
     INPUT,
     OUT,
     format_option(DRAWING_FORMATS),
     click.option(
-        "--views", default="front,top,left,iso", metavar="VIEW,...", help=f"Some of {', '.join(VIEW_WORDS)}; each once."
+        "--views",
+        metavar="VIEW,...",
+        help=f"Some of {', '.join(VIEW_WORDS)}; each once.  [default: front,top,left,iso]",
     ),
     click.option("--up", type=upwards, metavar="X,Y,Z", help="What is upwards, or x, y, z (default: z)."),
     click.option(
         "--scale",
-        default="fit",
         metavar="A:B",
-        help="Mm on paper for units of the part; fit: the largest of ISO 5455.",
+        help="Mm on paper for units of the part; fit: the largest of ISO 5455.  [default: fit]",
     ),
-    UNIT,
+    click.option(
+        "--unit",
+        type=click.Choice(["mm", "cm", "m", "in"]),
+        help="What a unit of the part is; all other lengths are in mm whatever it is.  [default: mm]",
+    ),
     click.option(
         "--standard",
         type=click.Choice(["iso", "asme"]),
-        default="iso",
-        help="What is usual: first angle, A3, measures above lines; or third angle, tabloid, level measures.",
+        help="What is usual: first angle, A3, measures above lines; or third angle, tabloid, level measures.  "
+        "[default: iso]",
     ),
     click.option(
         "--measured-in", type=click.Choice(["mm", "cm", "m", "in"]), help="The unit of all measures.  [default: mm]"
@@ -114,10 +128,20 @@ def _field(text: str) -> tuple[str, str]:
         metavar="VIEW:X,Y,Z,R",
         help="A local section through a point, in a circle of a view; repeat it for more.",
     ),
-    click.option("--dimensions", is_flag=True, help="How long the part is along x, y and z."),
-    click.option("--centre-lines", is_flag=True, help="Of bores, shafts and other round edges of meshes."),
-    click.option("--frame", is_flag=True, help="A border with centring marks and zones."),
-    click.option("--block/--no-block", default=True, help="The title block, or views alone, as a figure."),
+    click.option(
+        "--interrupted",
+        multiple=True,
+        metavar="AXIS=FROM..TO",
+        help="What is left out of a long part, as x=40..160, with break lines; repeat it for more.",
+    ),
+    click.option("--dimensions/--no-dimensions", default=None, help="How long the part is along x, y and z."),
+    click.option(
+        "--centre-lines/--no-centre-lines", default=None, help="Of bores, shafts and other round edges of meshes."
+    ),
+    click.option("--frame/--no-frame", default=None, help="A border with centring marks and zones."),
+    click.option(
+        "--block/--no-block", default=None, help="The title block, or views alone, as a figure.  [default: block]"
+    ),
     click.option(
         "--title",
         default="",
@@ -125,8 +149,8 @@ def _field(text: str) -> tuple[str, str]:
         show_default=False,
         help="Letters in the title block.  [default: those of the scene, or the name of a mesh file]",
     ),
-    click.option("--author", default="", metavar="TEXT", show_default=False, help="Who has drawn it."),
-    click.option("--date", default="", metavar="TEXT", show_default=False, help="As it is to be written."),
+    click.option("--author", metavar="TEXT", help="Who has drawn it."),
+    click.option("--date", metavar="TEXT", help="As it is to be written."),
     click.option("--sheet", metavar="TEXT", help="The number of the sheet, such as 1/2.  [default: 1, or 1/2 of two]"),
     click.option(
         "--field",
@@ -137,8 +161,17 @@ def _field(text: str) -> tuple[str, str]:
         help="A free field of the title block, as MATERIAL=S235; repeat it for more.",
     ),
     click.option("--block-template", metavar="FILE", help="A TOML file with the rows and cells of the title block."),
-    click.option("--balloons", is_flag=True, help="Numbers of parts around the iso view, or the first one."),
-    click.option("--parts-list", is_flag=True, help="A list of the parts on the title block."),
+    click.option(
+        "--balloons/--no-balloons", default=None, help="Numbers of parts around the iso view, or the first one."
+    ),
+    click.option("--parts-list/--no-parts-list", default=None, help="A list of the parts on the title block."),
+    click.option(
+        "--made-of",
+        type=_field,
+        multiple=True,
+        metavar="PART=TEXT",
+        help="The material of a part, for that list, as BOLT=8.8; repeat it for more.",
+    ),
     click.option("--each-part", is_flag=True, help="Then a sheet of each part, all as the pages of one PDF."),
     EXPLODE,
     TEXT,
@@ -157,13 +190,14 @@ def sheet(scene_file: tuple[str, ...], out: str, format_: str | None, quiet: boo
     from vectorplot.pictures.nothing_seen import why_nothing
     from vectorplot.pictures.sheet_annotations import part_scenes
     from vectorplot.pictures.technical_sheet import technical_sheet
-    from vectorplot.scene.page import Page
+    from vectorplot.scene.page import Page, SheetSettings
 
-    if told.pop("landscape"):
-        usual = "tabloid" if told["standard"] == "asme" else "A3"
-        told["page"] = f"{(told['page'] or usual).split(' ')[0]} landscape"
+    landscape = told.pop("landscape")
     asked, upright = told.pop("sheet"), told["up"] is not None
-    told |= {"cut_spacing_mm": told.pop("cut_spacing"), "title": told["title"] or None, "fields": dict(told["fields"])}
+    told |= {"cut_spacing_mm": told.pop("cut_spacing"), "title": told["title"] or None}
+    # What is not said here the scene may say.
+    told |= {name: told[name] or None for name in ("section", "detail_view", "breakout", "interrupted")}
+    told |= {name: dict(told[name]) or None for name in ("fields", "made_of")}
 
     apart, each_part = told.pop("explode"), told.pop("each_part")
     sources = [Source((one,), upright=upright) for one in scene_file]
@@ -178,7 +212,13 @@ def sheet(scene_file: tuple[str, ...], out: str, format_: str | None, quiet: boo
         usual = "1" if len(sources) == 1 else f"{number + 1}/{len(sources)}"
         said = usual if asked is None else asked
         of_part = each_part and number > 0
-        options = {**told, **_OF_ASSEMBLY} if of_part else told
+        options = dict(told)
+        if of_part:
+            made_of = {**dict((scene.sheet or SheetSettings()).made_of or ()), **(told["made_of"] or {})}
+            material = {"MATERIAL": made_of[scene.title]} if scene.title in made_of else {}
+            options |= {**_OF_ASSEMBLY, "fields": {**(told["fields"] or {}), **material}}
+        if landscape:
+            options["page"] = _lying(options["page"], options["standard"], scene.sheet or SheetSettings())
         shown = scene if of_part else moved_apart(scene, apart)
         named = replace(shown, title=scene.title or _name_of_mesh(sources[number].paths[0]))
         made = technical_sheet(named, **options, sheet=said, progress=report.progress, explain=report.explain)
