@@ -39,6 +39,8 @@ PENS = {
     "trace": Pen(0.13, BLACK),
     "outline": Pen(0.5, BLACK),
     "tangent": Pen(0.13, BLACK),
+    "terminator": Pen(0.25, BLACK),
+    "shadow": Pen(0.25, BLACK),
 }
 """The pens of layers by kind, as a draughtsman would choose them."""
 
@@ -67,6 +69,8 @@ KIND_LAYER = {
     LineKind.TRACE: "trace",
     LineKind.OUTLINE: "outline",
     LineKind.TANGENT: "tangent",
+    LineKind.TERMINATOR: "terminator",
+    LineKind.SHADOW: "shadow",
 }
 
 COLOURS = {
