@@ -95,7 +95,8 @@ def _plain(word: str) -> str:
 
 
 class LineKind(IntEnum):
-    """What a line is; the smaller value wins where one line is several things at once.
+    """What a line is; the smaller value wins where one line is several things at once, but a terminator wins over a
+    crease.
 
     Examples
     --------

@@ -119,7 +119,10 @@ def light_lines(
     for lamp in in_turn(lamps):
         system = light_system(view, lamp)
         for number, light_view in enumerate(light_views(view, system)):
-            picture = seen_from(replace(light_view.view, occludes=casts), light_view.planes)
+            planes = light_view.planes.copy()
+            # All but the near plane are sides of a window: what runs along one is in both images that share it.
+            planes[1:, 3] -= BESIDE_OUTLINE
+            picture = seen_from(replace(light_view.view, occludes=casts), planes)
             rays = _Rays(light_view, system, number, picture, budget.pairs)
             outlines = rays.outlines()
             turning = outlines.take((outlines.kind == LineKind.CONTOUR) & wanted[LineKind.TERMINATOR][outlines.item])
@@ -266,8 +269,8 @@ def _terminators(eye: _Eye, rays: _Rays, lines: Lines) -> tuple[Lines, Curves]:
     smooth = np.zeros(len(lines), dtype=np.bool_) if lines.chords is None else lines.chords.chord >= 0
     plain = lines.take(~smooth)
     kind = np.full(len(plain), int(LineKind.TERMINATOR))
-    ends = (rays.to_eye(side.T).T for side in (plain.start, plain.end))
-    straight = replace(straight_lines(*ends, kind, plain.item, np.zeros_like(kind)), smooth=plain.smooth)
+    start, end = (rays.to_eye(side.T).T for side in (plain.start, plain.end))
+    straight = replace(straight_lines(start, end, kind, plain.item, np.zeros_like(kind)), smooth=plain.smooth)
     chords = lines.take(smooth).chords
     if chords is None:
         return straight, no_curves()
@@ -422,7 +425,7 @@ def _thrown(eye: _Eye, rays: _Rays, lines: Lines, faces: Ints) -> _Thrown:
     count = np.clip(np.ceil(PIECES * norm((lines.end - lines.start).T)), 1, PIECES * PIECES).astype(np.intp)
     line, step = ragged.owner(count), 1.0 / np.repeat(count, count)
     seen = [_in_box(rays, _straight_at(lines, line, (ragged.place(count) + k) * step)) for k in (0, 1)]
-    low, high = np.minimum(*seen) - tolerance, np.maximum(*seen) + tolerance
+    low, high = np.minimum(*seen) - 2.0 * BESIDE_OUTLINE, np.maximum(*seen) + 2.0 * BESIDE_OUTLINE
     nearest, farthest = boxes.box[4], boxes.box[5]
     high[2] = max(float(farthest.max(initial=0.0)), float(high[2].max(initial=0.0)))
     other_low = np.stack([*boxes.box[[0, 2]], nearest]) - tolerance
@@ -563,7 +566,7 @@ def _met(eye: _Eye, rays: _Rays, lines: Lines, items: Bools, line: Ints, part: F
         at = np.where(np.isfinite(moved).all(axis=1)[:, None], moved, at)
     on = sheets.points(number, at)
     # Beyond the fold of a sheet only the ray beside the outline meets it.
-    hit = norm(np.cross(on - points, towards)) <= MET_OF_EXTENT * (1.0 + norm(on - points))
+    hit = np.flatnonzero(norm(np.cross(on - points, towards)) <= MET_OF_EXTENT * (1.0 + norm(on - points)))
     sample, number, at, on, towards = sample[hit], number[hit], at[hit], on[hit], towards[hit]
     item = sheets.item[number]
     normals = sheets.normals(number, at)
@@ -631,7 +634,7 @@ def _flat(eye: _Eye, rays: _Rays, met: _Met, left: Ints, middle: _Met) -> Bools:
         norm(images[1] - 0.5 * (images[0] + images[2])), norm(images[1] - eye.picture(rays.to_eye(between)))
     )
     same[shown] = off <= eye.tolerance
-    return same
+    return np.asarray(same)
 
 
 def _nearest_turn(eye: _Eye, number: Ints, places: Floats, other: Floats) -> Floats:

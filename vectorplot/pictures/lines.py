@@ -110,7 +110,7 @@ def strokes_on_page(view: View, lines: Lines, seen: Visibility, placement: Place
     open_ = np.zeros(count, dtype=np.bool_)
     # Lines at the same depth but for rounding go by their items: so neither size nor place decides which one stays.
     depth = np.round(view.depth_of(ends).reshape(-1, 2).sum(axis=1), 8)
-    rank = np.stack([np.arange(count), item, depth, kind, seen.hidden_by > 0])
+    rank = np.stack([np.arange(count), item, depth, _precedence(kind), seen.hidden_by > 0])
     paths = Paths(points, offsets, open_, kind, item, seen.hidden_by, view.world_of(ends), parts.smooth)
     if parts.chords:
         # A page shows the image larger, not turned.
@@ -122,10 +122,17 @@ def strokes_on_page(view: View, lines: Lines, seen: Visibility, placement: Place
     straight, smooth = np.flatnonzero(~paths.smooth), chosen(paths, paths.smooth)
     given, line = chosen(paths, straight), seen.segment.take(straight)
     once = without_duplicates(given, rank.take(straight, axis=1), COINCIDENT_MM, world, line)
-    importance = ((smooth.hidden_by > 0) * len(LineKind) + smooth.kind) * len(view.item_vertices) + smooth.item
+    importance = (smooth.hidden_by > 0) * 2 * len(LineKind) + _precedence(smooth.kind)
+    importance = importance * len(view.item_vertices) + smooth.item
     run = _runs(smooth)
     curve_rank = importance * (run.max(initial=0) + 1) + run
     return concatenated((once, without_smooth_duplicates(smooth, curve_rank, COINCIDENT_MM)))
+
+
+def _precedence(kind: Ints) -> Ints:
+    """(n,) numbers of which the smallest wins where one line is of several kinds: those of the kinds, but light ends at
+    a crease that is a terminator, which says more."""
+    return np.where(kind == LineKind.TERMINATOR, 2 * LineKind.CREASE - 1, 2 * kind)
 
 
 def _runs(chords: Paths) -> Ints:
