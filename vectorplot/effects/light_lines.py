@@ -116,7 +116,7 @@ def light_lines(
     opaque = np.array([item.material.opacity >= 1.0 for item in scene.items], dtype=np.bool_)
     casts = np.array([item.casts_shadow for item in scene.items], dtype=np.bool_)
     eye = _Eye(view, faces, sheets, tolerance, budget)
-    for lamp in in_turn(lamps):
+    for place, lamp in in_turn(enumerate(lamps)):
         system = light_system(view, lamp)
         for number, light_view in enumerate(light_views(view, system)):
             planes = light_view.planes.copy()
@@ -124,17 +124,16 @@ def light_lines(
             planes[1:, 3] -= BESIDE_OUTLINE
             picture = seen_from(replace(light_view.view, occludes=casts), planes)
             rays = _Rays(light_view, system, number, picture, budget.pairs)
-            outlines = rays.outlines()
+            outlines = rays.outlines
             turning = outlines.take((outlines.kind == LineKind.CONTOUR) & wanted[LineKind.TERMINATOR][outlines.item])
             lines, on_sheets = _terminators(eye, rays, turning)
-            straight.append(lines)
-            curves.append(on_sheets)
-            casting = outlines.take(casts[outlines.item])
-            if not (wanted[LineKind.SHADOW] & opaque).any() or not len(casting):
-                continue
-            on = wanted[LineKind.SHADOW] & opaque
-            straight.append(_on_faces(eye, rays, casting, on))
-            curves.append(_on_sheets(eye, rays, casting, on))
+            found = [(lines, on_sheets)]
+            casting, on = outlines.take(casts[outlines.item]), wanted[LineKind.SHADOW] & opaque
+            if len(casting) and on.any():
+                found.append((_on_faces(eye, rays, casting, on), _on_sheets(eye, rays, casting, on)))
+            for plain, smooth in found:
+                straight.append(replace(plain, lamp=np.full(len(plain), place)))
+                curves.append(replace(smooth, lamp=np.full(len(smooth), place)))
     return LightLines(joined_lines(straight), together(curves))
 
 
@@ -224,28 +223,35 @@ class _Rays:
         side = np.where(ends_on, 0, lines.sides(self.view))
         return np.asarray(side[:, None] * across / np.maximum(long, LEAST_DIVISOR)[:, None])
 
-    def lit(self, lines: Lines, step: Callable[[Lines], Floats]) -> Lines:
-        """The parts of lines that no face hides from the lamp a step (k,3) beside them."""
+    @cached_property
+    def outlines(self) -> Lines:
+        """The lines to one side of which there is nothing of their surface."""
+        lines = self.picture.parts
+        return lines.take((norm(self.outwards(lines)) > 0.0) & np.isin(lines.kind, OUTLINES))
+
+    def ending(self, lines: Lines) -> Lines:
+        """The parts of outlines at which light ends: what they belong to is lit beside them, and behind them nothing
+        is."""
+        return self._free(self._free(lines, 1.0), -1.0)
+
+    def _free(self, lines: Lines, side: float) -> Lines:
+        """The parts of outlines that no face hides from the lamp a little within them and before them, or with side -1
+        beyond and behind."""
         if not len(lines) or not len(self.picture.faces):
             return lines
-        off = step(lines).T
+        towards = self.towards(0.5 * (lines.start + lines.end).T)
+        off = side * (BEHIND_OUTLINE * towards - BESIDE_OUTLINE * self.outwards(lines)).T
         segments = Segments(lines.start + off, lines.end + off)
         seen = visible_parts(self.view, self.picture.faces, self.picture.solid, segments, unheard)
-        return lines.cut(self.view, seen.segment, seen.low, seen.high)
+        # What a line ends at hides its last bit.
+        bit = ENDS_OF_OUTLINES * BEHIND_OUTLINE / np.maximum(norm((lines.end - lines.start).T), LEAST_DIVISOR)
+        bit = bit[seen.segment]
+        low, high = np.where(seen.low < bit, 0.0, seen.low), np.where(seen.high > 1.0 - bit, 1.0, seen.high)
+        return lines.cut(self.view, seen.segment, low, high)
 
-    def outlines(self) -> Lines:
-        """The outlines at which light ends: what they belong to is lit beside them, and not what lies behind."""
-        lines = self.picture.parts
-        lines = lines.take((norm(self.outwards(lines)) > 0.0) & np.isin(lines.kind, OUTLINES))
 
-        def within(lines: Lines) -> Floats:
-            towards = self.towards(0.5 * (lines.start + lines.end).T)
-            return np.asarray(BEHIND_OUTLINE * towards - BESIDE_OUTLINE * self.outwards(lines))
-
-        def beyond(lines: Lines) -> Floats:
-            return -within(lines)
-
-        return self.lit(self.lit(lines, within), beyond)
+ENDS_OF_OUTLINES = 4.0
+"""So many times as long as the way behind outlines a bit of a line at its end is no bit of its own."""
 
 
 def _at(lines: Lines, which: Ints, part: Floats) -> Floats:
@@ -265,7 +271,8 @@ def _at(lines: Lines, which: Ints, part: Floats) -> Floats:
 
 
 def _terminators(eye: _Eye, rays: _Rays, lines: Lines) -> tuple[Lines, Curves]:
-    """Contours that the lamp sees, those of polyhedra and those of smooth surfaces."""
+    """Contours at which light ends, those of polyhedra and those of smooth surfaces."""
+    lines = rays.ending(lines)
     smooth = np.zeros(len(lines), dtype=np.bool_) if lines.chords is None else lines.chords.chord >= 0
     plain = lines.take(~smooth)
     kind = np.full(len(plain), int(LineKind.TERMINATOR))
@@ -327,7 +334,8 @@ def _finer(eye: _Eye, curves: Curves) -> Curves:
 # The edges of shadows on faces: planes through the lamp and an edge meet them in segments.
 
 PIECES = 16
-"""Lines are looked at in pieces that are no longer than this part of the scene: their boxes hold little else."""
+"""Lines are looked at in pieces no longer than this part of a unit, of which the scene is two wide: their boxes hold
+little else."""
 
 PAIRS_AT_ONCE = 1 << 18
 
@@ -481,6 +489,9 @@ def _kept(one: Floats, two: Floats) -> tuple[Floats, Floats]:
 FAR_BEHIND = 8.0
 """A way that leads out of every scene, which is 2 wide in a view."""
 
+RAYS = 64
+"""So many rays on a unit are met with smooth surfaces, of which the scene is two wide, before it is looked closer."""
+
 STEPS = 4
 """Steps of Newton from a ray beside an outline to the one that grazes it."""
 
@@ -593,7 +604,7 @@ def _on_sheets(eye: _Eye, rays: _Rays, lines: Lines, items: Bools) -> Curves:
     lines = lines.take(
         np.argsort(chord, kind="stable") if lines.chords is None else np.lexsort((lines.chords.begin, chord))
     )
-    count = np.clip(np.ceil(PIECES * norm((lines.end - lines.start).T)), 1, PIECES * PIECES).astype(np.intp)
+    count = np.clip(np.ceil(RAYS * norm((lines.end - lines.start).T)), 1, RAYS * RAYS).astype(np.intp)
     line = ragged.owner(count + 1)
     met = _met(eye, rays, lines, items, line, ragged.place(count + 1) / count[line])
     todo = (met.line[1:] == met.line[:-1]) & ((met.sheet[1:] >= 0) | (met.sheet[:-1] >= 0))

@@ -111,7 +111,9 @@ def strokes_on_page(view: View, lines: Lines, seen: Visibility, placement: Place
     # Lines at the same depth but for rounding go by their items: so neither size nor place decides which one stays.
     depth = np.round(view.depth_of(ends).reshape(-1, 2).sum(axis=1), 8)
     rank = np.stack([np.arange(count), item, depth, _precedence(kind), seen.hidden_by > 0])
-    paths = Paths(points, offsets, open_, kind, item, seen.hidden_by, view.world_of(ends), parts.smooth)
+    paths = Paths(
+        points, offsets, open_, kind, item, seen.hidden_by, view.world_of(ends), parts.smooth, lamp=parts.lamp
+    )
     if parts.chords:
         # A page shows the image larger, not turned.
         directions = _at_ends(parts.chords.directions(view))
