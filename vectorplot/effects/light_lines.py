@@ -492,6 +492,9 @@ FAR_BEHIND = 8.0
 RAYS = 64
 """So many rays on a unit are met with smooth surfaces, of which the scene is two wide, before it is looked closer."""
 
+FEW, PARTS_OF_FEW = 128, 16
+"""So few parts of lines are cut into so many at a time, where more are halved."""
+
 STEPS = 4
 """Steps of Newton from a ray beside an outline to the one that grazes it."""
 
@@ -558,12 +561,13 @@ class _Met(Elements):
         return len(self.line)
 
 
-def _met(eye: _Eye, rays: _Rays, lines: Lines, items: Bools, line: Ints, part: Floats) -> _Met:
-    """What the rays through parts (k,) of lines (k,) meet; items (i,): on which edges of shadows are drawn."""
+def _met(eye: _Eye, rays: _Rays, lines: Lines, out: Floats, items: Bools, line: Ints, part: Floats) -> _Met:
+    """What the rays through parts (k,) of lines (k,) meet; out (n,3): outwards of all lines; items (i,): on which edges
+    of shadows are drawn."""
     view, sheets = rays.view, rays.picture.sheets
     grazed = _at(lines, line, part)
     # A little beside the outline the ray does not touch what throws the shadow, and meets the same behind it.
-    beside = grazed + BESIDE_SMOOTH_OUTLINE * rays.outwards(lines)[line]
+    beside = grazed + BESIDE_SMOOTH_OUTLINE * out[line]
     towards = rays.towards(beside)
     found = meetings_along(view, sheets, rays.targets, beside - FAR_BEHIND * towards)
     behind = dot(beside[found.sample] - sheets.points(found.number, found.places), towards[found.sample])
@@ -605,20 +609,31 @@ def _on_sheets(eye: _Eye, rays: _Rays, lines: Lines, items: Bools) -> Curves:
         np.argsort(chord, kind="stable") if lines.chords is None else np.lexsort((lines.chords.begin, chord))
     )
     count = np.clip(np.ceil(RAYS * norm((lines.end - lines.start).T)), 1, RAYS * RAYS).astype(np.intp)
-    line = ragged.owner(count + 1)
-    met = _met(eye, rays, lines, items, line, ragged.place(count + 1) / count[line])
-    todo = (met.line[1:] == met.line[:-1]) & ((met.sheet[1:] >= 0) | (met.sheet[:-1] >= 0))
-    for _ in range(HALVINGS):
-        left = np.flatnonzero(todo)
-        if not len(left):
-            break
-        middle = _met(eye, rays, lines, items, met.line[left], 0.5 * (met.part[left] + met.part[left + 1]))
+    line, out = ragged.owner(count + 1), rays.outwards(lines)
+    met = _met(eye, rays, lines, out, items, line, ragged.place(count + 1) / count[line])
+    todo = _worth(met, np.arange(len(line) - 1))
+    while len(left := np.flatnonzero(todo)):
+        # Few rays take as long as many.
+        parts = PARTS_OF_FEW if len(left) <= FEW else 2
+        step, of = (met.part[left + 1] - met.part[left]) / parts, np.repeat(np.arange(len(left)), parts - 1)
+        at = met.part[left[of]] + (1 + np.arange(len(of)) % (parts - 1)) * step[of]
+        inner = _met(eye, rays, lines, out, items, met.line[left[of]], at)
+        middle = inner.take(np.arange(parts // 2 - 1, len(of), parts - 1))
         split = ~_flat(eye, rays, met, left, middle)
+        before = left[of][split[of]] + 1
         todo[left] = split
-        new = left[split] + 1
-        met = _inserted(met, new, middle.take(split))
-        todo = np.insert(todo, new, True)
-    return _in_eye(eye, rays, _runs(eye, rays, lines, met), LineKind.SHADOW, _thrown_in_eye)
+        todo = np.insert(todo, before, True)
+        met = _inserted(met, before, inner.take(split[of]))
+        todo &= _worth(met, np.arange(len(todo)))
+    return _in_eye(eye, rays, _runs(eye, rays, lines, out, met), LineKind.SHADOW, _thrown_in_eye)
+
+
+def _worth(met: _Met, left: Ints) -> Bools:
+    """(k,) whether something is drawn, or changes, between places left (k,) and those after them on their line, and
+    these are no place on one ray."""
+    one, two = met.take(left), met.take(left + 1)
+    some = one.drawn | two.drawn | (one.sheet != two.sheet)
+    return np.asarray(some & (one.line == two.line) & (two.part - one.part > FINEST_STEP))
 
 
 def _inserted(met: _Met, before: Ints, new: _Met) -> _Met:
@@ -656,7 +671,7 @@ def _nearest_turn(eye: _Eye, number: Ints, places: Floats, other: Floats) -> Flo
     return np.asarray(places - np.where(turns != 0.0, turns * np.where(turns != 0.0, periods, 0.0), 0.0))
 
 
-def _runs(eye: _Eye, rays: _Rays, lines: Lines, met: _Met) -> Curves:
+def _runs(eye: _Eye, rays: _Rays, lines: Lines, out: Floats, met: _Met) -> Curves:
     """What is drawn of the places that are met, in a row where they follow each other, as curves of the lamp's view,
     without what faces keep from the light."""
     sheets = rays.picture.sheets
@@ -696,7 +711,7 @@ def _runs(eye: _Eye, rays: _Rays, lines: Lines, met: _Met) -> Curves:
     if not len(rays.picture.faces):
         return curves
     # Each chord is of the line that its second end is of.
-    off = BESIDE_OUTLINE * rays.outwards(lines)[met.line[kept]][chord + 1]
+    off = BESIDE_OUTLINE * out[met.line[kept]][chord + 1]
     ends = (np.ascontiguousarray((curves.points[end] + off).T) for end in (chord, chord + 1))
     seen = visible_parts(rays.view, rays.picture.faces, rays.picture.solid, Segments(*ends), unheard)
     return _parts_of(curves, chord[seen.segment], seen.low, seen.high)
@@ -734,8 +749,8 @@ def _thrown_in_eye(eye: _Eye, rays: _Rays, number: int, second: int) -> Family:
     return _thrown_family(eye.sheets, number)
 
 
-LEAST_STEP = 2.0**-30
-"""Places that are nearer to each other, as parts of a line, are on one ray."""
+LEAST_STEP, FINEST_STEP = 2.0**-30, 2.0**-40
+"""Places that are nearer to each other, as parts of a line, are on one ray; and what is looked between no more."""
 
 
 # Parts of curves, and curves of a lamp's view in that of the eye.
