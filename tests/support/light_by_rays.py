@@ -66,8 +66,10 @@ def _patches(shape, count):
     v = domain.v_start + domain.size[1] * np.linspace(0.0013, 0.9987, count)
     u, v = (axis.ravel() for axis in np.meshgrid(u, v, indexing="ij"))
     one, two = shape.partials(u, v)
-    normal = np.cross(one, two)
-    yield shape.points(u, v), normal / np.linalg.norm(normal, axis=1, keepdims=True), count, count
+    points, normal = shape.points(u, v), np.cross(one, two)
+    # Of what is closed outwards: volumes are positive.
+    normal = normal * np.sign(((points - points.mean(axis=0)) * normal).sum())
+    yield points, normal / np.linalg.norm(normal, axis=1, keepdims=True), count, count
 
 
 def uncovered(scene: vp.Scene, lamp: vp.Light, drawing: vp.Drawing, item: int, count: int) -> np.ndarray:

@@ -117,7 +117,7 @@ def light_lines(
     casts = np.array([item.casts_shadow for item in scene.items], dtype=np.bool_)
     eye = _Eye(view, faces, sheets, tolerance, budget)
     for place, lamp in in_turn(enumerate(lamps)):
-        system = light_system(view, lamp)
+        system = light_system(replace(view, points=eye.reached), lamp)
         for number, light_view in enumerate(light_views(view, system)):
             planes = light_view.planes.copy()
             # All but the near plane are sides of a window: what runs along one is in both images that share it.
@@ -153,6 +153,12 @@ class _Eye:
         found = tracing_of(self.view, self.tolerance, self.budget).picture
         assert found is not None
         return found
+
+    @cached_property
+    def reached(self) -> Floats:
+        """(3,n) points of the view all around which the scene is."""
+        vertices = np.concatenate([self.view.points, *(sheet.vertices.T for sheet in self.sheets)], axis=1)
+        return np.asarray(vertices[:, np.isfinite(vertices).all(axis=0)])
 
     @cached_property
     def implicit(self) -> Bools:

@@ -104,6 +104,14 @@ def test_a_ring_shadows_itself(lamp):
     _changes_across(scene, lamp, found)
 
 
+def test_a_lamp_on_the_axis_of_a_ring_sees_whole_circles_of_it_wherever_else_things_stand():
+    lamp, far = 1.4, np.hypot(2.0, 1.4)
+    turn = np.arctan2(lamp, -2.0) + np.array([1.0, -1.0]) * np.arccos(0.8 / far)
+    scene = vp.Scene((vp.Item("ring", Torus(2.0, 0.8)), floor(-1.0)), lights=(Light((0.0, 0.0, lamp)),))
+    found = lines_of(scene).of_kind("terminator")
+    assert found.length == pytest.approx(2.0 * np.pi * (2.0 + 0.8 * np.cos(turn)).sum(), rel=1e-3)
+
+
 def _changes_across(scene: vp.Scene, lamp: Light, found: Drawn, step: float = 2e-3) -> None:
     """Beside the middle of each edge of a shadow, but near terminators, one place gets light and the other does not."""
     lines, size = found.of_kind("shadow"), np.ptp(scene.bounds, axis=0).max()
