@@ -80,8 +80,9 @@ class LampPicture:
     sheets: Sheets
 
 
-SeenFrom = Callable[[View, Floats], LampPicture]
-"""What is seen in a view on the positive side of planes (p,4)."""
+SeenFrom = Callable[[View, Floats, bool], LampPicture]
+"""What is seen in a view on the positive side of planes (p,4); with contours of polyhedra that stand for smooth shapes
+across their faces, or all along edges."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -114,6 +115,7 @@ def light_lines(
     straight, curves = [], [no_curves()]
     wanted = {kind: items_wanting(kind, scene, kinds) for kind in (LineKind.TERMINATOR, LineKind.SHADOW)}
     opaque = np.array([item.material.opacity >= 1.0 for item in scene.items], dtype=np.bool_)
+    across = np.array([item.curves.smooth_contours for item in scene.items], dtype=np.bool_)
     casts = np.array([item.casts_shadow for item in scene.items], dtype=np.bool_)
     eye = _Eye(view, faces, sheets, tolerance, budget)
     for place, lamp in in_turn(enumerate(lamps)):
@@ -122,12 +124,15 @@ def light_lines(
             planes = light_view.planes.copy()
             # All but the near plane are sides of a window: what runs along one is in both images that share it.
             planes[1:, 3] -= BESIDE_OUTLINE
-            picture = seen_from(replace(light_view.view, occludes=casts), planes)
-            rays = _Rays(light_view, system, number, picture, budget.pairs)
+            seen = replace(light_view.view, occludes=casts)
+            rays = _Rays(light_view, system, number, seen_from(seen, planes, False))
             outlines = rays.outlines
-            turning = outlines.take((outlines.kind == LineKind.CONTOUR) & wanted[LineKind.TERMINATOR][outlines.item])
-            lines, on_sheets = _terminators(eye, rays, turning)
-            found = [(lines, on_sheets)]
+            turning = wanted[LineKind.TERMINATOR] & ~across
+            found = [_terminators(eye, rays, rays.ending(outlines.take(_contours_of(outlines, turning))))]
+            if (wanted[LineKind.TERMINATOR] & across).any():
+                smooth_ones = seen_from(seen, planes, True).parts
+                smooth_ones = smooth_ones.take(_contours_of(smooth_ones, wanted[LineKind.TERMINATOR] & across))
+                found.append(_terminators(eye, rays, smooth_ones))
             casting, on = outlines.take(casts[outlines.item]), wanted[LineKind.SHADOW] & opaque
             if len(casting) and on.any():
                 found.append((_on_faces(eye, rays, casting, on), _on_sheets(eye, rays, casting, on)))
@@ -135,6 +140,11 @@ def light_lines(
                 straight.append(replace(plain, lamp=np.full(len(plain), place)))
                 curves.append(replace(smooth, lamp=np.full(len(smooth), place)))
     return LightLines(joined_lines(straight), together(curves))
+
+
+def _contours_of(lines: Lines, items: Bools) -> Bools:
+    """(n,) which lines are contours of some items (i,)."""
+    return np.asarray((lines.kind == LineKind.CONTOUR) & items[lines.item])
 
 
 @dataclass(frozen=True, eq=False)
@@ -182,14 +192,12 @@ class _Eye:
 
 @dataclass(frozen=True, eq=False)
 class _Rays:
-    """The rays of a lamp in one of its images, the one with this number, and what it sees there; pairs: of the
-    budget."""
+    """The rays of a lamp in one of its images, the one with this number, and what it sees there."""
 
     light_view: LightView
     system: LightSystem
     number: int
     picture: LampPicture
-    pairs: int
 
     @property
     def view(self) -> View:
@@ -278,7 +286,6 @@ def _at(lines: Lines, which: Ints, part: Floats) -> Floats:
 
 def _terminators(eye: _Eye, rays: _Rays, lines: Lines) -> tuple[Lines, Curves]:
     """Contours at which light ends, those of polyhedra and those of smooth surfaces."""
-    lines = rays.ending(lines)
     smooth = np.zeros(len(lines), dtype=np.bool_) if lines.chords is None else lines.chords.chord >= 0
     plain = lines.take(~smooth)
     kind = np.full(len(plain), int(LineKind.TERMINATOR))

@@ -675,11 +675,14 @@ def _light_and_dark(shapes: LineSources, tolerance: float, budget: Budget) -> Li
     from vectorplot.visibility.smooth.sheets import Sheets
 
     scene, fine = shapes.scene, max(FROM_LAMPS * tolerance, FINEST_CHORD_OF_EXTENT)
-    casts = [not is_annotation(item) and not is_curve(item.shape) for item in scene.items]
-    alone = replace(scene, items=tuple(map(_outlined, scene.items, casts)))
-    stages = [stage for stage in plan_draw(alone, BORDERS, "none", 0.0) if "balls" not in stage.name]
+    things = [not is_annotation(item) and not is_curve(item.shape) for item in scene.items]
+    along_edges = tuple(map(_outlined, scene.items, things))
 
-    def seen_from(view: View, planes: Floats) -> LampPicture:
+    def seen_from(view: View, planes: Floats, across: bool) -> LampPicture:
+        curves = (replace(one.curves, smooth_contours=across and one.curves.smooth_contours) for one in scene.items)
+        items = tuple(replace(one, curves=own) for one, own in zip(along_edges, curves, strict=True))
+        alone = replace(scene, items=items)
+        stages = [stage for stage in plan_draw(alone, BORDERS, "none", 0.0) if "balls" not in stage.name]
         own = traceable(Pipeline(stages, None, None), alone, view, project_faces(view), BORDERS, 180.0, budget)
         lines = own.lines(fine, budget)
         low, high = inside(planes, lines.start, lines.end)

@@ -9,6 +9,7 @@ from support.drawn import Drawn, drawn
 from support.light_by_rays import shone_on, towards, uncovered
 
 import vectorplot as vp
+from vectorplot.curves import Circle
 from vectorplot.geometry import box
 from vectorplot.scene.light import Light
 from vectorplot.surfaces import Capped, Cylinder, ImplicitTorus, Sphere, Torus
@@ -289,3 +290,31 @@ def test_lines_of_further_lamps_have_layers_with_their_numbers():
     assert filled == ["terminator", "shadow", "terminator 2", "shadow 2"]
     second = next(layer for layer in drawing.layers if layer.name == "shadow 2").strokes[0]
     assert (second.points3d[:, 0] <= 1.0 + 1e-9).all()
+
+
+def test_on_meshes_that_stand_for_smooth_shapes_terminators_run_across_faces():
+    u, v = (axis.ravel() for axis in np.meshgrid(np.arange(24), np.arange(12), indexing="ij"))
+    angle, height = np.pi * u / 12.0, np.pi * (v + 0.5) / 12.0
+    points = np.stack([np.sin(height) * np.cos(angle), np.sin(height) * np.sin(angle), np.cos(height)], axis=1)
+    quads = [
+        (12 * a + b, 12 * a + b + 1, 12 * ((a + 1) % 24) + b + 1, 12 * ((a + 1) % 24) + b)
+        for a in range(24)
+        for b in range(11)
+    ]
+    caps = [tuple(12 * np.arange(24)), tuple(12 * np.arange(24)[::-1] + 11)]
+    mesh = vp.Mesh.from_polygons(points, quads + caps)
+    smooth = vp.SurfaceLines(smooth_contours=True)
+    edges, across = (
+        lines_of(vp.Scene((vp.Item("ball", mesh, **how),), (SUN,)), lines="terminator", hidden="solid")
+        for how in ({}, {"curves": smooth})
+    )
+    way = np.array(SUN.position) / np.linalg.norm(SUN.position)
+    off = [np.abs(on_lines(found) @ way).max() for found in (edges, across)]
+    assert off[1] < 0.05 < off[0]
+    assert across.length == pytest.approx(2.0 * np.pi, rel=0.03)
+
+
+def test_without_anything_to_shine_on_there_are_no_lines():
+    scene = vp.Scene((vp.Item("line", Circle((0, 0, 0), 1.0)),), (SUN,))
+    found = drawn(vp.draw(scene, CAMERA, lines="curve,terminator,shadow"))
+    assert len(found) and not len(found.of_kind("terminator", "shadow"))
