@@ -35,16 +35,19 @@ from vectorplot.geometry.chord_refinement import bisected
 from vectorplot.geometry.component_arrays import cross
 from vectorplot.geometry.component_arrays import dot as column_dot
 from vectorplot.geometry.records import Elements
-from vectorplot.geometry.vectors import dot, norm
+from vectorplot.geometry.vectors import all_finite, dot, norm
 from vectorplot.scene.light import Light
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
 from vectorplot.tolerances import (
+    AWAY_FROM_LIT_ENDS,
     BEHIND_OUTLINE,
     BEHIND_SMOOTH_OUTLINE,
     BESIDE_OUTLINE,
     BESIDE_SMOOTH_OUTLINE,
+    FINEST_RAY_STEP,
     LEAST_DIVISOR,
+    LEAST_RAY_STEP,
     MET_OF_EXTENT,
     TOUCHING_OF_EXTENT,
 )
@@ -514,9 +517,6 @@ STEPS = 4
 HALVINGS = 40
 """A part of a line is halved so often where what its rays meet changes."""
 
-AWAY_FROM_ENDS = 1e-6
-"""Part of a line that is left out at either end where it is looked whether it is lit: what ends there may touch it."""
-
 
 def _before_sheets(rays: _Rays, lines: Lines, thrown: _Thrown) -> _Thrown:
     """The parts of what is thrown on faces that no smooth surface keeps from the light."""
@@ -538,7 +538,7 @@ def _before_sheets(rays: _Rays, lines: Lines, thrown: _Thrown) -> _Thrown:
     start, end = _ends(rays, lines, thrown)
     count = np.clip(np.ceil(2.0 * PIECES * norm(end - start)), 2, PIECES * PIECES).astype(np.intp)
     own = ragged.owner(count + 1)
-    part = np.clip(ragged.place(count + 1) / count[own], AWAY_FROM_ENDS, 1.0 - AWAY_FROM_ENDS)
+    part = np.clip(ragged.place(count + 1) / count[own], AWAY_FROM_LIT_ENDS, 1.0 - AWAY_FROM_LIT_ENDS)
     free = lit(own, part)
     changes = np.flatnonzero((own[1:] == own[:-1]) & (free[1:] != free[:-1]))
     begun = free[changes]
@@ -591,7 +591,7 @@ def _met(eye: _Eye, rays: _Rays, lines: Lines, out: Floats, items: Bools, line: 
     points, towards = grazed[sample], rays.towards(grazed[sample])
     for _ in range(STEPS):
         _, moved, _ = sheets.missed(number, points, towards, at)
-        at = np.where(np.isfinite(moved).all(axis=1)[:, None], moved, at)
+        at = np.where(all_finite(moved)[:, None], moved, at)
     on = sheets.points(number, at)
     # Beyond the fold of a sheet only the ray beside the outline meets it.
     hit = np.flatnonzero(norm(np.cross(on - points, towards)) <= MET_OF_EXTENT * (1.0 + norm(on - points)))
@@ -646,7 +646,7 @@ def _worth(met: _Met, left: Ints) -> Bools:
     these are no place on one ray."""
     one, two = met.take(left), met.take(left + 1)
     some = one.drawn | two.drawn | (one.sheet != two.sheet)
-    return np.asarray(some & (one.line == two.line) & (two.part - one.part > FINEST_STEP))
+    return np.asarray(some & (one.line == two.line) & (two.part - one.part > FINEST_RAY_STEP))
 
 
 def _inserted(met: _Met, before: Ints, new: _Met) -> _Met:
@@ -692,7 +692,7 @@ def _runs(eye: _Eye, rays: _Rays, lines: Lines, out: Floats, met: _Met) -> Curve
     goes_on = met.drawn[1:] & met.drawn[:-1] & (met.sheet[1:] == met.sheet[:-1])
     within = goes_on & (met.line[1:] == met.line[:-1])
     # From one place to the next one on the same ray it leaps over a fold.
-    within &= ~((met.part[1:] - met.part[:-1] < LEAST_STEP) & (step > BEHIND_SMOOTH_OUTLINE))
+    within &= ~((met.part[1:] - met.part[:-1] < LEAST_RAY_STEP) & (step > BEHIND_SMOOTH_OUTLINE))
     across = (
         goes_on & _follow(lines)[met.line[:-1]] & (met.line[1:] == met.line[:-1] + 1) & (step <= TOUCHING_OF_EXTENT)
     )
@@ -760,10 +760,6 @@ def _thrown_family(sheets: Sheets, number: int) -> Family:
 
 def _thrown_in_eye(eye: _Eye, rays: _Rays, number: int, second: int) -> Family:
     return _thrown_family(eye.sheets, number)
-
-
-LEAST_STEP, FINEST_STEP = 2.0**-30, 2.0**-40
-"""Places that are nearer to each other, as parts of a line, are on one ray; and what is looked between no more."""
 
 
 # Parts of curves, and curves of a lamp's view in that of the eye.
