@@ -669,19 +669,23 @@ FROM_LAMPS = 0.25
 be larger than they are."""
 
 
+def _in_light(item: Item, across: bool) -> Item:
+    """An item with all its borders, hiding what is behind it if it throws a shadow; across: its contours run across its
+    faces where it asks for such."""
+    outlined = _outlined(item, not is_curve(item.shape))
+    curves = replace(item.curves, smooth_contours=across and item.curves.smooth_contours)
+    return replace(outlined, curves=curves, occludes=outlined.hides and item.casts_shadow)
+
+
 def _light_and_dark(shapes: LineSources, tolerance: float, budget: Budget) -> LightLines:
     """The lines between light and dark of a scene, chords of curves within a tolerance in the unit box."""
     from vectorplot.effects.light_lines import LampPicture, light_lines
     from vectorplot.visibility.smooth.sheets import Sheets
 
     scene, fine = shapes.scene, max(FROM_LAMPS * tolerance, FINEST_CHORD_OF_EXTENT)
-    things = [not is_annotation(item) and not is_curve(item.shape) for item in scene.items]
-    along_edges = tuple(map(_outlined, scene.items, things))
 
     def seen_from(view: View, planes: Floats, across: bool) -> LampPicture:
-        curves = (replace(one.curves, smooth_contours=across and one.curves.smooth_contours) for one in scene.items)
-        items = tuple(replace(one, curves=own) for one, own in zip(along_edges, curves, strict=True))
-        alone = replace(scene, items=items)
+        alone = replace(scene, items=tuple(_in_light(item, across) for item in scene.items))
         stages = [stage for stage in plan_draw(alone, BORDERS, "none", 0.0) if "balls" not in stage.name]
         own = traceable(Pipeline(stages, None, None), alone, view, project_faces(view), BORDERS, 180.0, budget)
         lines = own.lines(fine, budget)
@@ -693,7 +697,10 @@ def _light_and_dark(shapes: LineSources, tolerance: float, budget: Budget) -> Li
 
     lamps = lamps_of(scene, shapes.view)
     sheets = Sheets(shapes.sheets)
-    return light_lines(scene, shapes.view, shapes.faces, sheets, lamps, shapes.kinds, seen_from, tolerance, budget)
+    with warnings.catch_warnings():
+        # What is in doubt about surfaces is told when they are drawn.
+        warnings.simplefilter("ignore", InputWarning)
+        return light_lines(scene, shapes.view, shapes.faces, sheets, lamps, shapes.kinds, seen_from, tolerance, budget)
 
 
 def traceable(

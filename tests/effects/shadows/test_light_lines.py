@@ -201,6 +201,17 @@ def test_what_light_goes_through_throws_no_shadow_and_gets_none():
     assert both.of(0).length == pytest.approx(12.0 + 2.0 * slant) and len(both.of(1)) == 0
 
 
+def test_light_goes_through_a_ball_of_glass():
+    glass = vp.Item("glass", Sphere(1.0), material=vp.Material("transparent", opacity=0.3))
+    bead = moved(vp.Item("bead", Sphere(0.3)), 1.6, 0.8, -2.0)
+    scene = vp.Scene((floor(-4.0), moved(glass, 0.0, 0.0, 0.0), bead), lights=(SUN,))
+    found = lines_of(scene)
+    alone = lines_of(replace(scene, items=(scene.items[0], scene.items[2])))
+    assert found.of(0).length == pytest.approx(alone.of(0).length, rel=1e-3)
+    assert found.of(2).length == pytest.approx(alone.of(1).length, rel=1e-3)
+    assert len(found.of(1).of_kind("terminator")) and not len(found.of(1).of_kind("shadow"))
+
+
 def test_boxes_side_by_side_throw_one_shadow():
     one, two = block("one", (0.0, 0.0, 0.0), (1.0, 1.0, 1.0)), block("two", (1.0, 0.0, 0.0), (1.0, 1.0, 1.0))
     whole = block("whole", (0.0, 0.0, 0.0), (2.0, 1.0, 1.0))
