@@ -122,7 +122,7 @@ def light_lines(
     casts = np.array([item.casts_shadow for item in scene.items], dtype=np.bool_)
     eye = _Eye(view, faces, sheets, tolerance, budget)
     for place, lamp in in_turn(enumerate(lamps)):
-        system = light_system(replace(view, points=eye.reached), lamp)
+        system = light_system(replace(view, points=eye.reached), _as_sun(view, lamp))
         for number, light_view in enumerate(light_views(view, system)):
             planes = light_view.planes.copy()
             # All but the near plane are sides of a window: what runs along one is in both images that share it.
@@ -143,6 +143,20 @@ def light_lines(
                 straight.append(replace(plain, lamp=np.full(len(plain), place)))
                 curves.append(replace(smooth, lamp=np.full(len(smooth), place)))
     return LightLines(joined_lines(straight), together(curves))
+
+
+FAR_LAMP = 1e7
+"""A lamp so many times as far away as the scene is large has parallel rays: they turn by less than a line is wide, and
+the digits that its distance takes from places are missed more."""
+
+
+def _as_sun(view: View, lamp: Light) -> Light:
+    """The lamp, with parallel rays where it is very far away."""
+    away = (np.asarray(lamp.position, dtype=np.float64) - view.centre) / view.scale
+    if lamp.parallel or not np.isfinite(away).all() or np.abs(away).max() < FAR_LAMP:
+        return lamp
+    x, y, z = (away / np.abs(away).max()).tolist()
+    return replace(lamp, position=(x, y, z), parallel=True)
 
 
 def _contours_of(lines: Lines, items: Bools) -> Bools:
@@ -508,6 +522,9 @@ FAR_BEHIND = 8.0
 RAYS = 64
 """So many rays on a unit are met with smooth surfaces, of which the scene is two wide, before it is looked closer."""
 
+MOST_PLACES = 1 << 18
+"""So many places are looked at for one lamp, about; with so many, shadows have the places that are found."""
+
 FEW, PARTS_OF_FEW = 128, 16
 """So few parts of lines are cut into so many at a time, where more are halved."""
 
@@ -625,7 +642,7 @@ def _on_sheets(eye: _Eye, rays: _Rays, lines: Lines, items: Bools) -> Curves:
     line, out = ragged.owner(count + 1), rays.outwards(lines)
     met = _met(eye, rays, lines, out, items, line, ragged.place(count + 1) / count[line])
     todo = _worth(met, np.arange(len(line) - 1))
-    while len(left := np.flatnonzero(todo)):
+    while len(left := np.flatnonzero(todo)) and len(todo) < MOST_PLACES:
         # Few rays take as long as many.
         parts = PARTS_OF_FEW if len(left) <= FEW else 2
         step, of = (met.part[left + 1] - met.part[left]) / parts, np.repeat(np.arange(len(left)), parts - 1)
@@ -672,7 +689,8 @@ def _flat(eye: _Eye, rays: _Rays, met: _Met, left: Ints, middle: _Met) -> Bools:
     off = np.maximum(
         norm(images[1] - 0.5 * (images[0] + images[2])), norm(images[1] - eye.picture(rays.to_eye(between)))
     )
-    same[shown] = off <= eye.tolerance
+    # What has no image, as beside the eye, is looked at no closer.
+    same[shown] = ~(off > eye.tolerance)
     return np.asarray(same)
 
 
