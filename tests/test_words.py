@@ -18,6 +18,7 @@ from vectorplot.words import (
     COLOURS,
     DRAWN,
     FEATURE_KINDS,
+    LIGHT_KINDS,
     LINE_WORDS,
     MATERIALS,
     PALETTES,
@@ -115,7 +116,7 @@ def test_kinds_come_once_and_none_is_none():
     assert line_words("crease, Contour,crease") == ("crease", "contour")
     assert line_words("none") == line_words(("none",)) == line_words(()) == ()
     kinds = {kind.word for kind in LineKind}
-    features = {kind.word for kind in FEATURE_KINDS}
+    features = {kind.word for kind in (*FEATURE_KINDS, *LIGHT_KINDS)}
     assert set(DRAWN) == set(LINE_WORDS) - {"edges", "outline"} - features
     assert set(LINE_WORDS) == kinds - {"hatch", "label", "centre", "ghost", "trace"}
 

@@ -229,6 +229,31 @@ SAFE_IN_IMAGE = 1e-3
 """A sight line that passes all edges at this distance in the image is trusted: about a tenth of a millimetre on a sheet
 of paper."""
 
+BESIDE_OUTLINE = 2e-8
+"""So far beside the outline of a polyhedron light is looked for: ten times what counts as zero in a view."""
+
+BEHIND_OUTLINE = 2e-4
+"""So far before and behind an outline light is looked for: faces that the light meets at angles down to the quotient of
+the other distance and this one, a ten-thousandth, are told from those behind them."""
+
+BESIDE_SMOOTH_OUTLINE = 1e-6
+"""So far beside the outline of a smooth surface a ray passes it for certain, and meets the same behind it."""
+
+BEHIND_SMOOTH_OUTLINE = 1e-4
+"""Nearer than this to the place where a ray grazes a smooth surface it throws no shadow: what is met there is the
+surface itself."""
+
+AWAY_FROM_LIT_ENDS = 1e-6
+"""Part of a line that is left out at either end where it is looked whether it is lit: what ends there may touch it."""
+
+LEAST_RAY_STEP = 2.0**-30
+"""Places that are nearer to each other than this part of a line are on one ray: a billionth of a line, as what counts
+as zero."""
+
+FINEST_RAY_STEP = 2.0**-40
+"""Between places that are nearer to each other than this part of a line nothing more is looked for: at a fold, where
+shadows run as the square root of it, they are within a millionth."""
+
 COVERED_MARGIN = 1e-7
 """A cell counts as covered only where it is so far inside, as free only where it is so far outside: more than the
 rounding of singles, which boxes are kept in."""

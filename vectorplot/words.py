@@ -95,7 +95,8 @@ def _plain(word: str) -> str:
 
 
 class LineKind(IntEnum):
-    """What a line is; the smaller value wins where one line is several things at once.
+    """What a line is; the smaller value wins where one line is several things at once, but a terminator wins over a
+    crease.
 
     Examples
     --------
@@ -154,6 +155,10 @@ class LineKind(IntEnum):
     """A closed path around all that things cover of the page together, or around a hole in it."""
     TANGENT = 23
     """An edge at which two faces of a part from a CAD system meet without a crease."""
+    TERMINATOR = 24
+    """A line along which a shape turns away from a lamp that shines on it up to there."""
+    SHADOW = 25
+    """The edge of a shadow that something throws."""
 
     @property
     def word(self) -> str:
@@ -199,10 +204,13 @@ LINE_WORDS = tuple(kind.word for kind in LineKind if kind not in (LineKind.HATCH
 FEATURE_KINDS = (LineKind.SUGGESTIVE, LineKind.RIDGE, LineKind.VALLEY, LineKind.APPARENT)
 """The kinds of lines that curvature makes, which are drawn only where they are asked for."""
 
+LIGHT_KINDS = (LineKind.TERMINATOR, LineKind.SHADOW)
+"""The kinds of lines between light and dark, which are drawn only where they are asked for."""
+
 ON_THINGS = tuple(word for word in LINE_WORDS if word != LineKind.OUTLINE.word)
 """Those of them that lie on one thing each; an outline is that of all together."""
 
-_DEFAULT = tuple(word for word in ON_THINGS if word not in [kind.word for kind in FEATURE_KINDS])
+_DEFAULT = tuple(word for word in ON_THINGS if word not in [kind.word for kind in (*FEATURE_KINDS, *LIGHT_KINDS)])
 
 DRAWN = tuple(word for word in _DEFAULT if word != LineKind.EDGES.word)
 """The kinds of lines that are drawn where nothing else is said."""

@@ -85,6 +85,9 @@ class Paths:
         The lengths in mm of the handles, from each point back and ahead, of the Bézier curves that are exactly, or but
         for a ten-thousandth of a mm, the curve that a smooth path follows from point to point. NaN, as everywhere
         unless said otherwise, where there are none.
+    lamp : (m,) array of int
+        The lamp, by its number among those that shine, whose light ends at a path that is a terminator or the edge of a
+        shadow; 0, as everywhere unless said otherwise, for all other paths.
 
     Examples
     --------
@@ -107,6 +110,7 @@ class Paths:
     directions: Floats = field(default_factory=lambda: np.zeros((0, 2)), metadata=EACH_POINT)
     curve: Ints = field(default_factory=lambda: np.zeros(0, dtype=np.intp), metadata=EACH_LINE)
     handles: Floats = field(default_factory=lambda: np.zeros((0, 2)), metadata=EACH_POINT)
+    lamp: Ints = field(default_factory=lambda: np.zeros(0, dtype=np.intp), metadata=EACH_LINE)
 
     def __post_init__(self) -> None:
         if not len(self.smooth):
@@ -117,6 +121,8 @@ class Paths:
             object.__setattr__(self, "handles", np.full((len(self.points), 2), np.nan))
         if not len(self.curve):
             object.__setattr__(self, "curve", np.full(len(self), NO_CURVE))
+        if not len(self.lamp):
+            object.__setattr__(self, "lamp", np.zeros(len(self), dtype=np.intp))
 
     def __len__(self) -> int:
         return len(self.offsets) - 1

@@ -12,7 +12,7 @@ from vectorplot.drawing.strokes import chosen
 from vectorplot.geometry.polylines import split
 from vectorplot.scene.scene import Scene
 from vectorplot.tolerances import FLAT_OF_EXTENT
-from vectorplot.words import LineKind
+from vectorplot.words import LIGHT_KINDS, LineKind
 
 BLACK = "#000000"
 
@@ -39,6 +39,8 @@ PENS = {
     "trace": Pen(0.13, BLACK),
     "outline": Pen(0.5, BLACK),
     "tangent": Pen(0.13, BLACK),
+    "terminator": Pen(0.25, BLACK),
+    "shadow": Pen(0.25, BLACK),
 }
 """The pens of layers by kind, as a draughtsman would choose them."""
 
@@ -67,6 +69,8 @@ KIND_LAYER = {
     LineKind.TRACE: "trace",
     LineKind.OUTLINE: "outline",
     LineKind.TANGENT: "tangent",
+    LineKind.TERMINATOR: "terminator",
+    LineKind.SHADOW: "shadow",
 }
 
 COLOURS = {
@@ -101,11 +105,19 @@ def letter_pen(layers: Sequence[Layer]) -> Pen:
 
 def layers_by_kind(paths: Paths) -> tuple[Layer, ...]:
     """Layers visible, contour, intersection, hidden, pattern, isophote, section and curve, without the
-    empty ones at the end: so each kind keeps its number from drawing to drawing."""
+    empty ones at the end: so each kind keeps its number from drawing to drawing. Lines at which the light of a second
+    lamp ends, or of further ones, come last, with its number in their names."""
     names = tuple(PENS)
     of_kind = np.array([names.index(KIND_LAYER[kind]) for kind in LineKind])
-    which = np.where(paths.hidden_by > 0, names.index("hidden"), of_kind[paths.kind])
-    return layers_of(paths, which, [(name, PENS[name], True) for name in names])
+    which = np.where(paths.hidden_by > 0, names.index("hidden"), of_kind[paths.kind] + len(names) * paths.lamp)
+    lamps = 1 + int(paths.lamp.max(initial=0))
+    more = [(f"{kind.word} {lamp + 1}", PENS[kind.word], True) for lamp in range(1, lamps) for kind in LIGHT_KINDS]
+    ends = np.array([names.index(kind.word) for kind in LIGHT_KINDS])
+    further = np.flatnonzero(which >= len(names))
+    lamp, kind_layer = np.divmod(which[further], len(names))
+    which[further] = len(names) + (lamp - 1) * len(ends) + np.searchsorted(ends, kind_layer)
+    named = [*((name, PENS[name], True) for name in names), *more]
+    return layers_of(paths, which, named)
 
 
 def layers_by_object(paths: Paths, items: Sequence[str]) -> tuple[Layer, ...]:

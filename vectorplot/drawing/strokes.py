@@ -115,6 +115,7 @@ def sections(
         directions,
         paths.curve[stroke],
         handles,
+        paths.lamp[stroke],
     )
 
 

@@ -44,6 +44,7 @@ from vectorplot.geometry.polylines import segments
 from vectorplot.pictures.pipeline import Pipeline
 from vectorplot.pictures.plan import plan_draw
 from vectorplot.pictures.prepared_scene import room_for_labels, titled
+from vectorplot.scene.added_lines import lamps_of
 from vectorplot.scene.annotations import LabelAnchors, annotation_points, is_annotation, only_annotations
 from vectorplot.scene.hatching import Hatching, Stippling
 from vectorplot.scene.item import Item
@@ -65,6 +66,7 @@ from vectorplot.visibility.polyhedra.lines import (
     edge_lines,
     frame_of,
     in_frame,
+    inside,
     intersection_lines,
     items_wanting,
     joined_lines,
@@ -78,9 +80,11 @@ from vectorplot.words import LineKind, check_colour
 
 if TYPE_CHECKING:
     from vectorplot.drawing.labels import SceneLabels
+    from vectorplot.effects.light_lines import LightLines
     from vectorplot.visibility.quadrics.closed_forms import ClosedForms, Seen
     from vectorplot.visibility.smooth.intersections import SmoothSheet
     from vectorplot.visibility.smooth.scene_curves import TracedScene
+    from vectorplot.visibility.smooth.traced_curves import Curves
 
 
 # Lines as strokes on the page.
@@ -106,8 +110,10 @@ def strokes_on_page(view: View, lines: Lines, seen: Visibility, placement: Place
     open_ = np.zeros(count, dtype=np.bool_)
     # Lines at the same depth but for rounding go by their items: so neither size nor place decides which one stays.
     depth = np.round(view.depth_of(ends).reshape(-1, 2).sum(axis=1), 8)
-    rank = np.stack([np.arange(count), item, depth, kind, seen.hidden_by > 0])
-    paths = Paths(points, offsets, open_, kind, item, seen.hidden_by, view.world_of(ends), parts.smooth)
+    rank = np.stack([np.arange(count), item, depth, _precedence(kind), seen.hidden_by > 0])
+    paths = Paths(
+        points, offsets, open_, kind, item, seen.hidden_by, view.world_of(ends), parts.smooth, lamp=parts.lamp
+    )
     if parts.chords:
         # A page shows the image larger, not turned.
         directions = _at_ends(parts.chords.directions(view))
@@ -118,10 +124,17 @@ def strokes_on_page(view: View, lines: Lines, seen: Visibility, placement: Place
     straight, smooth = np.flatnonzero(~paths.smooth), chosen(paths, paths.smooth)
     given, line = chosen(paths, straight), seen.segment.take(straight)
     once = without_duplicates(given, rank.take(straight, axis=1), COINCIDENT_MM, world, line)
-    importance = ((smooth.hidden_by > 0) * len(LineKind) + smooth.kind) * len(view.item_vertices) + smooth.item
+    importance = (smooth.hidden_by > 0) * 2 * len(LineKind) + _precedence(smooth.kind)
+    importance = importance * len(view.item_vertices) + smooth.item
     run = _runs(smooth)
     curve_rank = importance * (run.max(initial=0) + 1) + run
     return concatenated((once, without_smooth_duplicates(smooth, curve_rank, COINCIDENT_MM)))
+
+
+def _precedence(kind: Ints) -> Ints:
+    """(n,) numbers of which the smallest wins where one line is of several kinds: those of the kinds, but light ends at
+    a crease that is a terminator, which says more."""
+    return np.where(kind == LineKind.TERMINATOR, 2 * LineKind.CREASE - 1, 2 * kind)
 
 
 def _runs(chords: Paths) -> Ints:
@@ -206,11 +219,12 @@ def lines_and_chords(
     forms: ClosedForms | None,
     kinds: frozenset[LineKind],
     lines: Lines,
+    further: Curves | None,
     tolerance: float,
     budget: Budget,
 ) -> Lines:
-    """The lines and the curves of smooth surfaces, cut where one of these begins to hide them or ends, if they hide;
-    those of balls as they are seen among these."""
+    """The lines and the curves of smooth surfaces, and further ones, cut where one of these begins to hide them or
+    ends, if they hide; those of balls as they are seen among these."""
     if not pipeline.calls_for("curves"):
         return lines
     from vectorplot.visibility.smooth.hidden_curves import cut_lines_and_chords, whole_lines_and_chords
@@ -221,6 +235,7 @@ def lines_and_chords(
     tolerance = max(tolerance, FINEST_CHORD_OF_EXTENT)
     done = pipeline.fraction("curves")
     traced = pipeline.run("curves", _all_curves, scene, view, sheets, forms, kinds, tolerance, budget, done)
+    traced = traced if further is None else traced.joined(further)
     if not sheets or not pipeline.calls_for("smooth surfaces"):
         _say(traced.doubts)
         return with_kinds_of_cuts(scene, view, whole_lines_and_chords(traced, lines), kinds)
@@ -631,7 +646,11 @@ class LineSources:
 
     def lines(self, tolerance: float, budget: Budget) -> Lines:
         """All lines, curves as chords within a tolerance in the unit box."""
-        smooth = (self.sheets, self.balls, self.kinds, self.straight)
+        straight, curves = self.straight, None
+        if self.pipeline.calls_for("light and dark"):
+            found = self.pipeline.run("light and dark", _light_and_dark, self, tolerance, budget)
+            straight, curves = joined_lines((straight, found.straight)), found.curves
+        smooth = (self.sheets, self.balls, self.kinds, straight, curves)
         return lines_and_chords(self.pipeline, self.scene, self.view, *smooth, tolerance, budget)
 
     def framed(self, lines: Lines, place: Placement | None) -> Lines:
@@ -643,6 +662,45 @@ class LineSources:
     def seen(self, lines: Lines) -> Visibility:
         """Which parts of framed lines are seen."""
         return seen_parts(self.pipeline, self.view, self.faces, self.solid, lines)
+
+
+FROM_LAMPS = 0.25
+"""Chords of outlines that lamps see are off them by this part of what lines may be off on the page: their shadows may
+be larger than they are."""
+
+
+def _in_light(item: Item, across: bool) -> Item:
+    """An item with all its borders, hiding what is behind it if it throws a shadow; across: its contours run across its
+    faces where it asks for such."""
+    outlined = _outlined(item, not is_curve(item.shape))
+    curves = replace(item.curves, smooth_contours=across and item.curves.smooth_contours)
+    return replace(outlined, curves=curves, occludes=outlined.hides and item.casts_shadow)
+
+
+def _light_and_dark(shapes: LineSources, tolerance: float, budget: Budget) -> LightLines:
+    """The lines between light and dark of a scene, chords of curves within a tolerance in the unit box."""
+    from vectorplot.effects.light_lines import LampPicture, light_lines
+    from vectorplot.visibility.smooth.sheets import Sheets
+
+    scene, fine = shapes.scene, max(FROM_LAMPS * tolerance, FINEST_CHORD_OF_EXTENT)
+
+    def seen_from(view: View, planes: Floats, across: bool) -> LampPicture:
+        alone = replace(scene, items=tuple(_in_light(item, across) for item in scene.items))
+        stages = [stage for stage in plan_draw(alone, BORDERS, "none", 0.0) if "balls" not in stage.name]
+        own = traceable(Pipeline(stages, None, None), alone, view, project_faces(view), BORDERS, 180.0, budget)
+        lines = own.lines(fine, budget)
+        low, high = inside(planes, lines.start, lines.end)
+        kept = np.flatnonzero(low < high)
+        lines = lines.cut(view, kept, low[kept], high[kept])
+        seen = own.seen(lines)
+        return LampPicture(lines.cut(view, seen.segment, seen.low, seen.high), own.faces, own.solid, Sheets(own.sheets))
+
+    lamps = lamps_of(scene, shapes.view)
+    sheets = Sheets(shapes.sheets)
+    with warnings.catch_warnings():
+        # What is in doubt about surfaces is told when they are drawn.
+        warnings.simplefilter("ignore", InputWarning)
+        return light_lines(scene, shapes.view, shapes.faces, sheets, lamps, shapes.kinds, seen_from, tolerance, budget)
 
 
 def traceable(

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.projections import projection_of
 from vectorplot.pictures.pipeline import Stage
+from vectorplot.scene.added_lines import shining
 from vectorplot.scene.annotations import is_annotation
 from vectorplot.scene.hatching import Hatching, Stippling
 from vectorplot.scene.item import Item
@@ -17,7 +18,7 @@ from vectorplot.scene.placement import box_corners, field_of_vision
 from vectorplot.scene.scene import Scene
 from vectorplot.surfaces.capped_bodies import ball_of, capped_quadric_of, is_quadric_body
 from vectorplot.tolerances import ZERO_OF_EXTENT
-from vectorplot.words import FEATURE_KINDS, LineKind
+from vectorplot.words import FEATURE_KINDS, LIGHT_KINDS, LineKind
 
 DEEP = 2.0
 """Where the farthest is so many times as far from the eye as the nearest, trapezoidal shadow maps have a tenth fewer
@@ -102,9 +103,13 @@ def plan_draw(
             )
         )
     smooth = [item.shape for item in scene.items if not isinstance(item.shape, Mesh)]
-    balls = any(ball_of(shape) or capped_quadric_of(shape) for shape in smooth)
+    lit = wanted & set(LIGHT_KINDS)
+    # What light ends on is looked for on surfaces with parameters.
+    balls = not lit and any(ball_of(shape) or capped_quadric_of(shape) for shape in smooth)
     if balls:
         stages.append(Stage("balls", "spheres, ellipsoids and capped bodies, and the conics on them"))
+    if lit:
+        stages.append(_light_stage(scene, lit))
     if smooth:
         stages.append(Stage("curves", "items are smooth surfaces"))
         if style == "plain":
@@ -129,6 +134,15 @@ def plan_draw(
         stages += _cue_stages(scene)
     stages.append(Stage("pen", "strokes joined, in an order that keeps the pen on the paper"))
     return tuple(stages)
+
+
+def _light_stage(scene: Scene, kinds: Collection[LineKind]) -> Stage:
+    """The stage that finds lines between light and dark of these kinds."""
+    lamps = len(shining(scene.lights)) if scene.lights else 1
+    words = " and ".join(
+        {"terminator": "terminators", "shadow": "edges of shadows"}[kind.word] for kind in sorted(kinds)
+    )
+    return Stage("light and dark", f"{words} of {lamps} light{'s' if lamps != 1 else ''}")
 
 
 def plan_arcs(stages: Sequence[Stage]) -> tuple[Stage, ...]:

@@ -54,7 +54,8 @@ class Lines(Elements):
     """Straight lines in the view's coordinates. start, end (3,n); kind (n,): LineKind values; item (n,); side (n,): 1
     or -1 for an outline with its surface left or right of start -> end in the image, else 0; smooth (n,): chords of
     smooth curves; behind (n,): how many smooth surfaces hide all of it; aside (3,n): offset at which it is tested,
-    as contours across faces are just outside of these; chords: the parts of smooth curves, if any.
+    as contours across faces are just outside of these; chords: the parts of smooth curves, if any; lamp (n,): whose
+    light ends there, by number, 0 for other lines.
     """
 
     start: Floats = field(metadata=IN_COLUMNS)
@@ -66,6 +67,11 @@ class Lines(Elements):
     behind: Ints
     aside: Floats = field(metadata=IN_COLUMNS)
     chords: ChordParts | None = None
+    lamp: Ints = field(default_factory=lambda: np.zeros(0, dtype=np.intp))
+
+    def __post_init__(self) -> None:
+        if not len(self.lamp):
+            object.__setattr__(self, "lamp", np.zeros(len(self.kind), dtype=np.intp))
 
     def __len__(self) -> int:
         return len(self.kind)

@@ -696,7 +696,8 @@ def _as_lines(traced: TracedScene, lines: Lines, curves: Curves, found: HiddenCu
     side[smooth] = curves.side[curve[smooth]]
     behind = behind + curves.behind[curve]
     chords = replace(chords, chord=np.where(smooth, chord, -1))
-    return Lines(start.T, end.T, curves.kind[curve], curves.item[curve], side, smooth, behind, aside, chords)
+    kind, item, lamp = curves.kind[curve], curves.item[curve], curves.lamp[curve]
+    return Lines(start.T, end.T, kind, item, side, smooth, behind, aside, chords, lamp)
 
 
 def _straight(lines: Lines) -> Curves:
@@ -715,4 +716,5 @@ def _straight(lines: Lines) -> Curves:
         np.zeros(count, dtype=np.intp),
         np.zeros(count),
         (StraightLines(),),
+        lamp=lines.lamp,
     )

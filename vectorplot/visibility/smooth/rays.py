@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged, records
+from vectorplot.geometry.budget import in_turn
 from vectorplot.geometry.records import Elements
 from vectorplot.geometry.vectors import all_finite, dot, greatest_component, least_component
 from vectorplot.scene.view import View
@@ -307,7 +308,7 @@ class _Starts:
 
 
 @dataclass(frozen=True, eq=False)
-class _Met:
+class Met:
     """Meetings: sample, sheet, part of the sight line, place."""
 
     sample: Ints
@@ -371,6 +372,28 @@ def counts_in_front(view: View, sheets: Sheets, targets: Targets, samples: Sampl
     return all_tallies(counts), all_tallies(unlooked)
 
 
+AT_ONCE = 1 << 12
+"""Sight lines that are met with everything at once."""
+
+
+def meetings_along(view: View, sheets: Sheets, targets: Targets, points: Floats) -> Met:
+    """All meetings of the sight lines of points (k,3) with sheets in front of these, each once."""
+    none, nowhere = np.zeros(0, dtype=np.intp), np.zeros((0, 3))
+    parts = [Met(none, none, np.zeros(0), nowhere)]
+    image = sight_lines.image(view, points)
+    for first in in_turn(range(0, len(points) if len(targets) else 0, AT_ONCE)):
+        own = points[first : first + AT_ONCE]
+        count = len(own)
+        nothing, unknown = np.full(count, -1), np.full((count, 3), np.nan)
+        no = np.zeros(count, dtype=np.bool_)
+        samples = Samples(own, nothing, unknown, nothing[:, None], unknown[:, None], no, no)
+        there = image[first : first + AT_ONCE]
+        way = sight_lines.sight(view, own)
+        found = _meetings(view, sheets, targets, samples, way, targets.near_boxes(there, there))
+        parts.append(replace(found, sample=found.sample + first))
+    return records.joined(parts)
+
+
 def _in_front(
     view: View, sheets: Sheets, targets: Targets, samples: Samples, pairs: tuple[Ints, Ints]
 ) -> tuple[Ints, Ints]:
@@ -417,7 +440,7 @@ def _second_meeting(sheets: Sheets, number: Ints, way: Floats, places: Floats) -
 
 def _meetings(
     view: View, sheets: Sheets, targets: Targets, samples: Samples, way: Floats, pairs: tuple[Ints, Ints]
-) -> _Met:
+) -> Met:
     """All meetings of the sight lines with sheets in front of the points, each once, and some of those behind them."""
     image = sight_lines.image(view, samples.points)
     sample, triangle = pairs
@@ -453,7 +476,7 @@ def _meetings(
     return met
 
 
-def _solved(view: View, sheets: Sheets, samples: Samples, way: Floats, starts: _Starts) -> _Met:
+def _solved(view: View, sheets: Sheets, samples: Samples, way: Floats, starts: _Starts) -> Met:
     """What Newton's method finds from the starts, some of it more than once.
 
     From a point of a contour the sight line touches the sheet: steps towards the point only halve the way there, and
@@ -483,10 +506,10 @@ def _solved(view: View, sheets: Sheets, samples: Samples, way: Floats, starts: _
         t[active], places[active] = step, led_to
     off[active] = _apart(points[active], ways[active], t[active], sheets.points(number[active], places[active]))
     met = (off <= max(MET_OF_EXTENT, ULPS * sight_lines.rounding(view))) & sheets.on_sheet(number, places)
-    return _Met(sample[met], number[met], t[met], places[met])
+    return Met(sample[met], number[met], t[met], places[met])
 
 
-def _second_ones(sheets: Sheets, way: Floats, met: _Met) -> _Starts:
+def _second_ones(sheets: Sheets, way: Floats, met: Met) -> _Starts:
     """Where to look for the partners of meetings at a slant that none was found near.
 
     A sight line close to an outline meets the sheet twice close to each other, and the triangle of only one of the two
@@ -515,7 +538,7 @@ def _apart(points: Floats, ways: Floats, t: Floats, others: Floats) -> Floats:
     return np.sqrt(dot(away, away))
 
 
-def _different(sheets: Sheets, way: Floats, met: _Met) -> _Met:
+def _different(sheets: Sheets, way: Floats, met: Met) -> Met:
     """The meetings without repetitions, sorted by sample, sheet and distance."""
     distance = met.t * np.linalg.norm(way, axis=1)[met.sample]
     order = np.lexsort((distance, met.number, met.sample))

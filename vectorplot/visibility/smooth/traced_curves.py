@@ -55,7 +55,7 @@ class Curves(LineElements):
     that the condition of its family has along a curve; side (m,): of an outline 1 or -1 where its surface lies to its
     left or right and that is known already, else 0; behind (m,): by how many items it is hidden already; sheet (m,):
     the sheet that it lies on, -1 for straight lines, and second_sheet (m,) another one, or -1: as its family says, if
-    not given.
+    not given; lamp (m,): whose light ends there, by number, 0 for other curves.
     """
 
     points: Floats = field(metadata=EACH_POINT)
@@ -72,13 +72,14 @@ class Curves(LineElements):
     behind: Ints = field(default_factory=_none, metadata=EACH_LINE)
     sheet: Ints = field(default_factory=_none, metadata=EACH_LINE)
     second_sheet: Ints = field(default_factory=_none, metadata=EACH_LINE)
+    lamp: Ints = field(default_factory=_none, metadata=EACH_LINE)
 
     def __post_init__(self) -> None:
         for name, of_family in (("sheet", "sheet"), ("second_sheet", "second")):
             if len(self) and not len(getattr(self, name)):
                 values = np.array([*(getattr(family, of_family) for family in self.families), -1], dtype=np.intp)
                 object.__setattr__(self, name, values[self.family])
-        for name in ("side", "behind"):
+        for name in ("side", "behind", "lamp"):
             if not len(getattr(self, name)):
                 object.__setattr__(self, name, np.zeros(len(self), dtype=np.intp))
 
