@@ -682,6 +682,18 @@ OUTSIDE_DOMAIN = 1e-9
 """Part of the domain, or of the box of an implicit surface, that a place may be outside of it and still belongs to
 it."""
 
+ON_TRIM = 1e-9
+"""A place this part of the domain away from a curve that trims a surface lies on it, and belongs to the surface: files
+hold parameters to twelve digits, and seams would be slits."""
+
+BESIDE_TRIM = 1e-6
+"""Part of the domain beside a curve that trims a surface, and part of a piece of it from its ends, at which is looked
+to which side the surface lies: a thousand times what counts as on the curve, and nothing that is seen."""
+
+TRIM_CURVE_OFF = 1e-10
+"""Part of its size by which the cubic pieces that a trimming curve is made of may be off it: a tenth of what counts as
+on it."""
+
 REPEATED_OF_DOMAIN = 1e-9
 """Points of a curve this part of the domain apart repeat each other: one of them goes."""
 
