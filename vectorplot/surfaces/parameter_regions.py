@@ -191,7 +191,9 @@ class ParameterRegions:
         loops = ragged.starts([int(one.loop.max(initial=-1)) + 1 for one in regions])
         first = ragged.starts([len(one) for one in regions])
         return cls(
-            *(np.concatenate([getattr(one, name) for one in regions]) for name in ("start", "size", "closed")),
+            np.concatenate([one.start for one in regions]),
+            np.concatenate([one.size for one in regions]),
+            np.concatenate([one.closed for one in regions]),
             np.concatenate([one.filled for one in regions]),
             np.concatenate([one.control for one in regions]),
             np.concatenate([one.loop + at for one, at in zip(regions, loops, strict=True)]),
@@ -269,7 +271,7 @@ class ParameterRegions:
         return shapely.multipolygons(parts[shapely.get_dimensions(parts) == 2])
 
     def onto_borders(self, places: Floats) -> Floats:
-        """(k,2) the places of the borders of the only region that are nearest to places (k,2) close to them, as far from
+        """(k,2) the places of borders of the only region that are nearest to places (k,2) close to them, as far from
         seams as these are."""
         import shapely
 
@@ -280,7 +282,7 @@ class ParameterRegions:
         first, last = (rounds[0].tolist() for rounds in self._rounds)
         for i in range(first[0], last[0] + 1):
             for j in range(first[1], last[1] + 1):
-                q = part + (i, j)
+                q = part + np.array([i, j])
                 (_, near), far = tree.query_nearest(shapely.points(q), return_distance=True, all_matches=False)
                 t, _ = _nearest(scaled[own[near]], q)
                 closer = far < best
@@ -441,8 +443,8 @@ class RegionBorders:
         return ragged.owner(np.diff(self.offsets))
 
     def at(self, first: Floats, along: Floats) -> tuple[Floats, Floats]:
-        """Places (k,2) that lie so far along (k,) borders from places with the numbers first (k,), and derivatives (k,2)
-        by the number. Closed ones run on over seams."""
+        """Places (k,2) that lie so far along (k,) borders from places with the numbers first (k,), and derivatives
+        (k,2) by the number. Closed ones run on over seams."""
         number, piece = self._numbers(first + along, first)
         control = self.control[piece]
         border = self._border[piece]
@@ -456,7 +458,7 @@ class RegionBorders:
         return self._numbers(first + along, first)[0]
 
     def lengths(self, first: Floats, last: Floats) -> Floats:
-        """(k,) how far it is along borders from the first to the last numbers (k,): of closed ones on over the start."""
+        """(k,) how far it is along borders from numbers first to last (k,): of closed ones on over the start."""
         border = self._border[np.floor(first).astype(np.intp)]
         return last - first + np.where(last <= first, np.diff(self.offsets)[border], 0)
 

@@ -93,6 +93,7 @@ class TrimmedSurface(MovableSurface):
                 raise InputError(f"{len(loops)} {name}: expected at most {MOST_LOOPS}")
             object.__setattr__(self, name, loops)
         # Asked once, so that ranges and curves that do not fit are an error here and now.
+        _ = self.domain
         if self.region is not None and not self.region.leaves_anything:
             raise InputError("trims and holes leave nothing of the surface")
 
@@ -245,8 +246,8 @@ def uncut(surface: Surface) -> Surface:
 
 
 def cuts_of(surface: Surface) -> list[CutSurface | TrimmedSurface]:
-    """The cuts through a surface by planes, and its trims by curves, the last ones first, each of the whole surface as it
-    was then."""
+    """The cuts through a surface by planes, and its trims by curves, the last ones first, each of the whole surface as
+    it was then."""
     found: list[CutSurface | TrimmedSurface] = []
     while isinstance(surface, PlacedSurface | TrimmedSurface | InvertedSurface | OverDomain | CutSurface):
         if isinstance(surface, CutSurface):

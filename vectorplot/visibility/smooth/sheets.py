@@ -483,8 +483,8 @@ class ParametricSheet(OnParametrised):
     """A parametrised surface, already in the view's coordinates, and its tessellation; jumps: whether it has triangles
     that were left out, because the surface jumps beneath them; holed: whether it has holes; creases: the v at which
     another sheet of the item begins behind a sharp edge; is_cap: whether it is a flat end, without parameter lines;
-    trims: the part of the domain that curves leave, if these are all that ends it: then what is beyond them is known, as
-    of no hole, and the tessellation goes on a little."""
+    trims: the part of the domain that curves leave, if these are all that ends it: then what is beyond them is known,
+    as of no hole, and the tessellation goes on a little."""
 
     surface: Surface
     item: int
@@ -525,8 +525,8 @@ def parametric_sheets(
 ) -> list[ParametricSheet]:
     """The sheets of surfaces that are given in the view's coordinates, made together as far as these are alike.
 
-    Edge cases: triangles beneath which a surface jumps are left out; those with a corner in a hole end at its rim; those
-    that trims cross are whole.
+    Edge cases: triangles beneath which a surface jumps are left out; those with a corner in a hole end at its rim;
+    those that trims cross are whole.
     """
     sheets: dict[int, ParametricSheet] = {}
     trims = [trims_of(surface) for surface in surfaces]
