@@ -690,9 +690,9 @@ BESIDE_TRIM = 1e-6
 """Part of the domain beside a curve that trims a surface, and part of a piece of it from its ends, at which is looked
 to which side the surface lies: a thousand times what counts as on the curve, and nothing that is seen."""
 
-TRIM_CURVE_OFF = 1e-10
-"""Part of its size by which the cubic pieces that a trimming curve is made of may be off it: a tenth of what counts as
-on it."""
+TRIM_CURVE_OFF = 1e-8
+"""Part of its size by which the cubic pieces that a trimming curve is made of may be off it: nanometres on a page, and
+the pieces are what the curve is from then on."""
 
 REPEATED_OF_DOMAIN = 1e-9
 """Points of a curve this part of the domain apart repeat each other: one of them goes."""

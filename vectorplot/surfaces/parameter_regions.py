@@ -3,21 +3,28 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.curves.bezier import BezierPath, bezier_points, bezier_tangents, flattened, split
+from vectorplot.curves.bezier import bezier_points, bezier_tangents, flattened, split
 from vectorplot.curves.curve import Curve, is_curve
 from vectorplot.curves.cut_curve import breaks_of
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
 from vectorplot.geometry.vectors import dot, from_components, norm
 from vectorplot.surfaces.surface import Domain
-from vectorplot.tolerances import BESIDE_TRIM, JUST_BEFORE, LEAST_DIVISOR, ON_TRIM, TRIM_CURVE_OFF
+from vectorplot.tolerances import (
+    BESIDE_TRIM,
+    JUST_BEFORE,
+    LEAST_DIVISOR,
+    ON_TRIM,
+    ROUNDING_OF_DOMAIN,
+    TRIM_CURVE_OFF,
+)
 
 # Closed curves in u and v as cubic pieces.
 
@@ -31,21 +38,16 @@ LOOKS = (0.25, 0.5, 0.75)
 """Where a cubic piece is compared with the curve."""
 
 Loop = Any
-"""A closed curve in u and v: corners (n,2) of a polygon, a BezierPath in the plane, or a curve with z = 0."""
+"""A closed curve in u and v: corners (n,2) of a polygon, or a curve with z = 0."""
 
 
 def loop_pieces(name: str, loop: Loop) -> Floats:
     """(k,4,2) the control points of the cubic pieces of a curve in u and v; name: what errors call it.
 
-    Polygons and Bézier paths are as they are; of other curves pieces are within TRIM_CURVE_OFF of their size.
+    Polygons are as they are; of curves pieces are within TRIM_CURVE_OFF of their size.
     Errors: InputError for what is none, for fewer than three corners, coordinates that are not finite, curves that
     leave the plane z = 0 or need more than MOST_PIECES pieces.
     """
-    if isinstance(loop, BezierPath):
-        pieces = np.array(loop.control, dtype=np.float64)
-        if pieces.ndim != 3 or pieces.shape[1:] != (4, 2) or not np.isfinite(pieces).all():
-            raise InputError(f"{name}: expected a Bézier path in the plane of u and v")
-        return pieces
     if is_curve(loop):
         return _pieces_of_curve(name, loop)
     try:
@@ -53,7 +55,7 @@ def loop_pieces(name: str, loop: Loop) -> Floats:
     except (TypeError, ValueError):
         corners = np.zeros(0)
     if corners.ndim != 2 or corners.shape[1] != 2 or not np.isfinite(corners).all():
-        raise InputError(f"{name}: expected corners (n, 2) of finite u and v, a Bézier path or a curve in the plane")
+        raise InputError(f"{name}: expected corners (n, 2) of finite u and v, or a curve in the plane")
     corners = corners[np.append(True, (np.diff(corners, axis=0) != 0.0).any(axis=1))]
     if len(corners) > 1 and (corners[0] == corners[-1]).all():
         corners = corners[:-1]
@@ -552,31 +554,34 @@ def parameter_region(domain: Domain, loops: Sequence[Floats], *, filled: bool) -
 
 
 def _with_sides(region: ParameterRegions) -> ParameterRegions:
-    """The region with the sides of its pieces, told beside their middles."""
+    """The region with the sides of its pieces, told beside their middles.
+
+    Curves do not cross: along one of them nothing changes but at ends of the domain, and where pieces lie along a seam or
+    such an end, which are straight. So one piece tells for all others of its curve that are within the domain.
+    """
     control, closed = region._scaled, region.closed[0]
     middle = np.full(len(control), 0.5)
     at, way = bezier_points(control, middle), _unit(bezier_tangents(control, middle))
     aside = BESIDE_TRIM * from_components(-way[:, 1], way[:, 0])
+    straight = (np.abs(control - control[:, :1]) <= ROUNDING_OF_DOMAIN).all(axis=1).any(axis=1)
+    inner = (closed | ((at > 0.0) & (at < 1.0))).all(axis=1)
+    others = np.flatnonzero(inner & ~straight)
+    first = others[np.unique(region.loop[others], return_index=True)[1]]
+    asked = np.concatenate([np.flatnonzero(straight), first])
     inside = []
-    for places in (at + aside, at - aside):
+    for places in (at[asked] + aside[asked], at[asked] - aside[asked]):
         within = (closed | ((places >= 0.0) & (places <= 1.0))).all(axis=1)
-        which = np.zeros(len(at), dtype=np.intp)
+        which = np.zeros(len(asked), dtype=np.intp)
         inside.append(within & region._located(region.start[0] + places * region.size[0], which)[0])
+    told = inside[0].astype(np.intp) - inside[1]
+    of_loop = np.zeros(int(region.loop.max(initial=-1)) + 1, dtype=np.intp)
+    of_loop[region.loop[first]] = told[len(asked) - len(first) :]
+    side = np.where(inner, of_loop[region.loop], 0)
+    side[straight] = told[: len(asked) - len(first)]
     ends = control[:, [0, 3]]
-    along = np.zeros(len(control), dtype=np.bool_)
     for place in (0.0, 1.0):
-        along |= ((np.abs(ends - place) <= ALONG_END * ON_TRIM).all(axis=1) & ~closed).any(axis=1)
-    side = inside[0].astype(np.intp) - inside[1]
-    return ParameterRegions(
-        region.start,
-        region.size,
-        region.closed,
-        region.filled,
-        region.control,
-        region.loop,
-        region.of,
-        np.where(along, 0, side),
-    )
+        side[((np.abs(ends - place) <= ALONG_END * ON_TRIM).all(axis=1) & ~closed).any(axis=1)] = 0
+    return replace(region, side=side)
 
 
 def led_back(name: str, pieces: Floats, domain: Domain) -> Floats:
@@ -610,6 +615,15 @@ def led_back(name: str, pieces: Floats, domain: Domain) -> Floats:
     return np.concatenate([pieces, _straight(corners[:-1], corners[1:])])
 
 
+def near_middle(pieces: Floats, domain: Domain, periods: Domain) -> Floats:
+    """The pieces of a curve, moved by whole rounds of a domain, in the directions in which that is closed, so that their
+    middle is near to that of another domain."""
+    low, high = bounds_of_loops([pieces])
+    away = 0.5 * (low + high) - (np.array([domain.u_start, domain.v_start]) + 0.5 * np.array(domain.size))
+    rounds = np.where([periods.closed_u, periods.closed_v], np.round(away / periods.size), 0.0)
+    return pieces - rounds * periods.size
+
+
 BEYOND = 0.5
 """Part of the domain beyond its end at which curves that run round are closed."""
 
@@ -617,14 +631,20 @@ FLAT = 1e-7
 """Part of what curves measure to which they are flattened to see whether they cross."""
 
 
-def check_apart(loops: Sequence[Floats]) -> None:
-    """Errors: InputError where curves, pieces (k,4,2) each, cross or touch others, or themselves."""
+def check_apart(loops: Sequence[Floats], domain: Domain) -> None:
+    """Errors: InputError where curves, pieces (k,4,2) each, cross or touch others, or themselves, also over the seams of
+    a domain, near to the middle of which they are."""
     import shapely
 
-    control = np.concatenate(loops)
-    low, high = bounds_of_loops(loops)
-    scaled = (control - low) / np.where(high > low, high - low, 1.0)
-    points, offsets = flattened(scaled, ragged.offsets([len(one) for one in loops]), FLAT)
+    every, sizes = list(loops), np.array(domain.size)
+    middle = np.array([domain.u_start, domain.v_start]) + 0.5 * sizes
+    for axis in np.flatnonzero([domain.closed_u, domain.closed_v]):
+        for loop in tuple(every):
+            if loop[:, :, axis].max() > middle[axis] + 0.5 * sizes[axis]:
+                every.append(loop - sizes * (np.arange(2) == axis))
+    low, high = bounds_of_loops(every)
+    scaled = (np.concatenate(every) - low) / np.where(high > low, high - low, 1.0)
+    points, offsets = flattened(scaled, ragged.offsets([len(one) for one in every]), FLAT)
     lines = shapely.linestrings(points, indices=ragged.owner(np.diff(offsets)))
     if not shapely.is_simple(shapely.multilinestrings(lines)):
         raise InputError("the curves of trims and holes must not cross or touch each other or themselves")

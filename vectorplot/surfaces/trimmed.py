@@ -23,6 +23,7 @@ from vectorplot.surfaces.parameter_regions import (
     check_apart,
     led_back,
     loop_pieces,
+    near_middle,
     parameter_region,
 )
 from vectorplot.surfaces.placed_surface import MovableSurface, PlacedSurface
@@ -62,7 +63,7 @@ class TrimmedSurface(MovableSurface):
     There curves may run over the seam, too, and a curve may run round once and end a whole round from where it begins:
     what is to its left is within it. Parts of curves beyond the domain do not count.
 
-    A place on a curve belongs to the surface. Curves are made of cubic pieces, off by 1e-10 of their size at most;
+    A place on a curve belongs to the surface. Curves are made of cubic pieces, off by 1e-8 of their size at most;
     polygons are exact. The domain is a little larger than what is within the trims.
 
     Examples
@@ -112,8 +113,9 @@ class TrimmedSurface(MovableSurface):
             f"{what} {number}" for what, some in (("trim", self.trims), ("hole", self.holes)) for number in _up(some)
         ]
         pieces = [loop_pieces(*of) for of in zip(names, (*self.trims, *self.holes), strict=True)]
+        pieces = [near_middle(one, self._ranges, self.surface.domain) for one in pieces]
         if pieces:
-            check_apart(pieces)
+            check_apart(pieces, self.surface.domain)
         return [led_back(*of, self._ranges) for of in zip(names, pieces, strict=True)]
 
     @cached_property
@@ -124,7 +126,11 @@ class TrimmedSurface(MovableSurface):
     @cached_property
     def region(self) -> ParameterRegions | None:
         """What trims and holes leave of the domain; None where there are none."""
-        return parameter_region(self.domain, self._loops, filled=not self.trims) if self._loops else None
+        if not self._loops:
+            return None
+        # A smaller domain may lie over a seam.
+        loops = [near_middle(loop, self.domain, self.surface.domain) for loop in self._loops[len(self.trims) :]]
+        return parameter_region(self.domain, [*self._loops[: len(self.trims)], *loops], filled=not self.trims)
 
     @property
     def whole(self) -> TrimmedSurface:

@@ -79,6 +79,18 @@ def test_an_island_within_a_hole_is_left():
     assert np.array_equal(left(trimmed, u, v), ((off <= 1.0) & (off >= 0.6)) | (off <= 0.3))
 
 
+def test_curves_may_be_rounds_away_from_what_they_trim():
+    window = curves.Circle((0.2, 0.0, 0.0), 0.8)
+    far = [curves.Circle((0.1 + 2.0 * np.pi * k, 0.2 * k, 0.0), 0.1) for k in (-2, 0, 2)]
+    trimmed = TrimmedSurface(BALL, trims=[window], holes=far)
+    u, v = places(trimmed)
+    gone = np.any([np.hypot(u - 0.1, v - 0.2 * k) < 0.1 for k in (-2, 0, 2)], axis=0)
+    assert not trimmed.domain.closed_u and gone.sum() > 500
+    assert np.array_equal(left(trimmed, u, v), (np.hypot(u - 0.2, v) <= 0.8) & ~gone)
+    part = TrimmedSurface(BALL, u=(-1.0, 1.0), holes=[curves.Circle((2.0 * np.pi - 0.5, 0.0, 0.0), 0.2)])
+    assert left(part, np.array([-0.5, 0.5]), np.zeros(2)).tolist() == [False, True]
+
+
 def test_borders_run_along_the_curves_with_the_surface_beside_them():
     trimmed = TrimmedSurface(RING, holes=[curves.Circle((6.2, 0.1, 0.0), 0.3), star(3.0, 3.0)])
     region = trims_of(trimmed)
@@ -138,6 +150,13 @@ def test_the_size_of_parameters_does_not_matter(scale):
 def test_what_trims_nothing_is_refused(loops, message):
     with pytest.raises(vp.InputError, match=message):
         TrimmedSurface(SHEET, trims=loops)
+
+
+def test_curves_that_cross_over_a_seam_are_refused():
+    holes = [curves.Circle((u, 0.0, 0.0), 0.2) for u in (0.1, 2.0 * np.pi - 0.1)]
+    with pytest.raises(vp.InputError, match="must not cross or touch"):
+        TrimmedSurface(BALL, holes=holes)
+    assert TrimmedSurface(SHEET, holes=[curves.Circle((u, 0.0, 0.0), 0.2) for u in (-0.3, 0.3)]).region is not None
 
 
 def test_a_curve_that_runs_round_a_torus_bounds_nothing():
