@@ -1,6 +1,6 @@
 """A lantern of which leaves are cut out.
 
-Closed curves in u and v trim surfaces: 84 leaves are holes in the parameters of a ball. Through them one sees the lamp,
+Closed curves in u and v trim surfaces: 72 leaves are holes in the parameters of a ball. Through them one sees the lamp,
 and the leaves behind it; contours and all other lines end on their borders exactly.
 """
 
@@ -22,7 +22,7 @@ LEAN = 0.9
 """The angle at which they rise."""
 
 
-def leaf(number, count=84):
+def leaf(number, count=72):
     """The outline of a leaf on the unit ball, in u and v, from its foot to its tip and back."""
     u, v = number * GOLDEN, np.arcsin(1.64 * (number + 0.5) / count - 0.82)
 
@@ -38,11 +38,14 @@ def leaf(number, count=84):
 
 
 def main(folder: Path) -> None:
-    wall = TrimmedSurface(Sphere(), v=(-1.15, 1.15), holes=[leaf(k) for k in range(84)])
+    wall = TrimmedSurface(Sphere(), v=(-1.15, 1.15), holes=[leaf(k) for k in range(72)])
     lamp = Sphere(0.4)
-    tone = tuple(np.cos(np.linspace(0.1, 1.5, 22) * np.pi / 2).tolist())
+    tone = tuple(np.cos(np.linspace(0.1, 1.5, 18) * np.pi / 2).tolist())
     scene = vp.Scene(
-        (vp.Item("WALL", wall, curves=vp.SurfaceLines(isophotes=tone)), vp.Item("LAMP", lamp, curves=vp.SurfaceLines(isophotes=tone))),
+        (
+            vp.Item("WALL", wall, curves=vp.SurfaceLines(isophotes=tone)),
+            vp.Item("LAMP", lamp, curves=vp.SurfaceLines(isophotes=tone)),
+        ),
         (vp.Light((-2, -3, 5), parallel=True),),
         title="A lantern",
     )

@@ -362,9 +362,17 @@ class ParameterRegions:
         pieces = np.repeat(np.arange(len(self.of)), sizes)[order]
         return begin, density, first, pieces, ragged.offsets(np.bincount(strip, minlength=int(first[-1])))
 
+    @cached_property
+    def _columns(self) -> tuple[Floats, Floats, Floats, Floats, Floats, Floats]:
+        """(p,) each, for columns are taken in a third of the time of rows: where v begins and ends along pieces, and the
+        smallest and the largest u and v of them."""
+        (left, below), (right, above) = (np.ascontiguousarray(corners.T) for corners in self._boxes)
+        begin, end = self._scaled[:, 0, 1], self._scaled[:, 3, 1]
+        return np.ascontiguousarray(begin), np.ascontiguousarray(end), left, right, below, above
+
     def _pairs(self, places: Floats, which: Ints) -> Iterator[_Pairs]:
-        """Places (k,2) of regions (k,), in each of the rounds to which they may belong, with the pieces in their
-        strips."""
+        """Places (k,2) of regions (k,), in each of the rounds to which they may belong, with those pieces in their
+        strips that are not all to the left of them."""
         begin, density, first, pieces, offsets = self._strips
         with np.errstate(invalid="ignore"):
             part = (places - self.start[which]) / self.size[which]
@@ -382,18 +390,24 @@ class ParameterRegions:
         row, q, own, at = row[within], q[within], own[within], at[within]
         strip = first[own] + np.minimum(at.astype(np.intp), np.diff(first)[own] - 1)
         sizes = offsets[strip + 1] - offsets[strip]
+        u, v = np.ascontiguousarray(q.T)
         for a, b in ragged.batches(sizes, AT_ONCE):
             copy = np.repeat(np.arange(a, b), sizes[a:b])
-            yield _Pairs(row[copy], copy, pieces[ragged.ranges(offsets[strip[a:b]], sizes[a:b])], q[copy])
+            piece = pieces[ragged.ranges(offsets[strip[a:b]], sizes[a:b])]
+            right = np.flatnonzero(u.take(copy) <= self._columns[3].take(piece) + ON_TRIM)
+            copy, piece = copy[right], piece[right]
+            yield _Pairs(row.take(copy), copy, piece, u.take(copy), v.take(copy))
 
     def _close(self, pairs: _Pairs) -> tuple[Ints, Ints, Floats]:
         """Rows (m,) and pieces (m,) of pairs no farther apart than ON_TRIM, and where (m,) the pieces are nearest."""
-        low, high = self._boxes
-        q, piece = pairs.places, pairs.piece
-        near = np.flatnonzero(((q >= low[piece] - ON_TRIM) & (q <= high[piece] + ON_TRIM)).all(axis=1))
-        t, off = _nearest(self._scaled[piece[near]], q[near])
+        _, _, left, _, below, above = self._columns
+        near = np.flatnonzero(pairs.u >= left.take(pairs.piece) - ON_TRIM)
+        v, piece = pairs.v[near], pairs.piece[near]
+        near = near[(v >= below.take(piece) - ON_TRIM) & (v <= above.take(piece) + ON_TRIM)]
+        piece = pairs.piece[near]
+        t, off = _nearest(self._scaled[piece], from_components(pairs.u[near], pairs.v[near]))
         close = off <= ON_TRIM
-        return pairs.row[near[close]], piece[near[close]], t[close]
+        return pairs.row[near[close]], piece[close], t[close]
 
     def _located(self, places: Floats, which: Ints) -> tuple[Bools, Bools]:
         """(k,) whether places (k,2) lie within an odd number of curves, or an even one of filled regions, by how often
@@ -403,20 +417,21 @@ class ParameterRegions:
         """
         curves = max(int(self.loop.max(initial=-1)) + 1, 1)
         within, on = [np.zeros(0, dtype=np.intp)], np.zeros(len(places), dtype=np.bool_)
-        low, high = self._boxes
+        begin, end, left, _, _, _ = self._columns
         for pairs in self._pairs(places, which):
-            q, piece = pairs.places, pairs.piece
-            start, end = self._scaled[piece, 0, 1], self._scaled[piece, 3, 1]
-            passed = ((start <= q[:, 1]) != (end <= q[:, 1])) & (q[:, 0] <= high[piece, 0])
-            open_ = np.flatnonzero(passed & (q[:, 0] >= low[piece, 0]))
+            passed = np.flatnonzero((begin.take(pairs.piece) <= pairs.v) != (end.take(pairs.piece) <= pairs.v))
+            piece, u = pairs.piece[passed], pairs.u[passed]
+            open_ = np.flatnonzero(u >= left[piece])
             own = self._scaled[piece[open_]]
-            passed[open_] = bezier_points(own, _at_value(own, 1, q[open_, 1]))[:, 0] > q[open_, 0]
+            beyond = np.ones(len(passed), dtype=np.bool_)
+            beyond[open_] = bezier_points(own, _at_value(own, 1, pairs.v[passed[open_]]))[:, 0] > u[open_]
+            passed, piece = passed[beyond], piece[beyond]
             # Each round that a place is in counts by itself.
             key, first, times = np.unique(
-                pairs.copy[passed] * curves + self.loop[piece[passed]], return_index=True, return_counts=True
+                pairs.copy[passed] * curves + self.loop[piece], return_index=True, return_counts=True
             )
             odd = times % 2 == 1
-            within.append(pairs.row[passed][first[odd]] * curves + key[odd] % curves)
+            within.append(pairs.row[passed[first[odd]]] * curves + key[odd] % curves)
             row, piece, _ = self._close(pairs)
             border = self.side[piece] != 0
             on[row[border]] = True
@@ -485,12 +500,13 @@ class RegionBorders:
 @dataclass(frozen=True, eq=False)
 class _Pairs:
     """Places and pieces to be looked at together: row (m,) of the place, copy (m,) of it in one of its rounds, piece
-    (m,), and places (m,2) in parts of the domain."""
+    (m,), and u and v (m,) in parts of the domain."""
 
     row: Ints
     copy: Ints
     piece: Ints
-    places: Floats
+    u: Floats
+    v: Floats
 
 
 STRAIGHT_ON = 1e-3
