@@ -15,7 +15,7 @@ from vectorplot.curves.curve import Curve, is_curve
 from vectorplot.curves.cut_curve import breaks_of
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
-from vectorplot.geometry.vectors import dot, from_components, norm
+from vectorplot.geometry.vectors import any_component, dot, from_components, norm
 from vectorplot.surfaces.surface import Domain
 from vectorplot.tolerances import (
     BESIDE_TRIM,
@@ -266,7 +266,11 @@ class ParameterRegions:
             turns = [(-i, -j) for i in range(first[0], last[0] + 1) for j in range(first[1], last[1] + 1)]
             copies = [shapely.transform(rings, lambda at, turn=turn: at + turn) for turn in turns]
             rings = shapely.union_all(np.stack(copies), axis=0)
-        odd = shapely.symmetric_difference_all(rings)
+        while len(rings) > 1:
+            pairs = len(rings) // 2
+            both = shapely.symmetric_difference(rings[:pairs], rings[pairs : 2 * pairs])
+            rings = np.concatenate([both, rings[2 * pairs :]])
+        odd = rings[0]
         inside = shapely.difference(domain, odd) if self.filled[0] else shapely.intersection(domain, odd)
         # What touches a seam leaves lines and points of it behind.
         parts = shapely.get_parts(shapely.simplify(inside, tolerance, preserve_topology=True))
@@ -364,8 +368,8 @@ class ParameterRegions:
 
     @cached_property
     def _columns(self) -> tuple[Floats, Floats, Floats, Floats, Floats, Floats]:
-        """(p,) each, for columns are taken in a third of the time of rows: where v begins and ends along pieces, and the
-        smallest and the largest u and v of them."""
+        """(p,) each, for columns are taken in a third of the time of rows: where v begins and ends along pieces, and
+        the smallest and the largest u and v of them."""
         (left, below), (right, above) = (np.ascontiguousarray(corners.T) for corners in self._boxes)
         begin, end = self._scaled[:, 0, 1], self._scaled[:, 3, 1]
         return np.ascontiguousarray(begin), np.ascontiguousarray(end), left, right, below, above
@@ -572,14 +576,14 @@ def parameter_region(domain: Domain, loops: Sequence[Floats], *, filled: bool) -
 def _with_sides(region: ParameterRegions) -> ParameterRegions:
     """The region with the sides of its pieces, told beside their middles.
 
-    Curves do not cross: along one of them nothing changes but at ends of the domain, and where pieces lie along a seam or
-    such an end, which are straight. So one piece tells for all others of its curve that are within the domain.
+    Curves do not cross: along one of them nothing changes but at ends of the domain, and where pieces lie along a seam
+    or such an end, which are straight. So one piece tells for all others of its curve that are within the domain.
     """
     control, closed = region._scaled, region.closed[0]
     middle = np.full(len(control), 0.5)
     at, way = bezier_points(control, middle), _unit(bezier_tangents(control, middle))
     aside = BESIDE_TRIM * from_components(-way[:, 1], way[:, 0])
-    straight = (np.abs(control - control[:, :1]) <= ROUNDING_OF_DOMAIN).all(axis=1).any(axis=1)
+    straight: Bools = any_component(np.asarray((np.abs(control - control[:, :1]) <= ROUNDING_OF_DOMAIN).all(axis=1)))
     inner = (closed | ((at > 0.0) & (at < 1.0))).all(axis=1)
     others = np.flatnonzero(inner & ~straight)
     first = others[np.unique(region.loop[others], return_index=True)[1]]
@@ -632,8 +636,8 @@ def led_back(name: str, pieces: Floats, domain: Domain) -> Floats:
 
 
 def near_middle(pieces: Floats, domain: Domain, periods: Domain) -> Floats:
-    """The pieces of a curve, moved by whole rounds of a domain, in the directions in which that is closed, so that their
-    middle is near to that of another domain."""
+    """The pieces of a curve, moved by whole rounds of a domain, in the directions in which that is closed, so that
+    their middle is near to that of another domain."""
     low, high = bounds_of_loops([pieces])
     away = 0.5 * (low + high) - (np.array([domain.u_start, domain.v_start]) + 0.5 * np.array(domain.size))
     rounds = np.where([periods.closed_u, periods.closed_v], np.round(away / periods.size), 0.0)
@@ -648,8 +652,8 @@ FLAT = 1e-7
 
 
 def check_apart(loops: Sequence[Floats], domain: Domain) -> None:
-    """Errors: InputError where curves, pieces (k,4,2) each, cross or touch others, or themselves, also over the seams of
-    a domain, near to the middle of which they are."""
+    """Errors: InputError where curves, pieces (k,4,2) each, cross or touch others, or themselves, also over the seams
+    of a domain, near to the middle of which they are."""
     import shapely
 
     every, sizes = list(loops), np.array(domain.size)
