@@ -160,7 +160,7 @@ def read_trim(words: Words, at: int, owner: str) -> tuple[Any, int]:
             words.fail(start - 1, f"{owner}{what}: {error.cause}")
     if words.words[after] != ",":
         words.fail(after, f"{owner}{what}: expected 't' and its range, or ',' and corners, got {words.shown(after)}")
-    corners, at = [], start
+    corners, at = list[tuple[float, ...]](), start
     while not corners or words.words[at] == ",":
         corner, at = read_numbers(2)(words, at + bool(corners), owner, f"u and v of a corner of {what}")
         corners.append(corner)

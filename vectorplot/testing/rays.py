@@ -879,7 +879,7 @@ class _Cuts:
             off = np.minimum(off, shapely.distance(borders, shapely.points(copy)))
         long = np.stack([norm(by) for by in self.whole.partials(u, v)], axis=1) * region.size / self.size
         inside = (within % 2 == 1) != bool(region.filled[0])
-        return np.where(inside, -off, off) * long.min(axis=1)
+        return np.asarray(np.where(inside, -off, off) * long.min(axis=1))
 
 
 TRIMS_FLATTENED = 1e-9
