@@ -30,7 +30,7 @@ from vectorplot.geometry.vectors import all_components, any_component, cross
 from vectorplot.surfaces.parameter_regions import ParameterRegions
 from vectorplot.surfaces.surface import Surface
 from vectorplot.surfaces.trimmed import trims_of, uncut
-from vectorplot.tolerances import CHORD_OF_EXTENT, REPEATED_OF_DOMAIN
+from vectorplot.tolerances import CHORD_OF_EXTENT, PLACES_IN_CELLS, REPEATED_OF_DOMAIN
 
 # Triangles in the domain of a surface divided where they meet holes, until one straight rim runs through each.
 
@@ -288,9 +288,6 @@ def _once(rims: Ints) -> Ints:
 TRIMS_STRAIGHT = 1.0 / 512.0
 """Part of a cell by which sides of triangles may be off the curves between their ends."""
 
-FINEST_PLACES = 2.0**-40
-"""Places in cells are rounded to so small parts of the domain, so that neighbours have them in common."""
-
 
 def cut_at_trims(region: ParameterRegions, u: Floats, v: Floats) -> CutTriangles:
     """The triangles of the cells of a grid of parameters u (m,) and v (n,), those that trims cross cut along them; of:
@@ -305,10 +302,10 @@ def cut_at_trims(region: ParameterRegions, u: Floats, v: Floats) -> CutTriangles
     triangles = [np.stack([a, b, c], axis=1)[whole], np.stack([a, c, d], axis=1)[whole]]
     cut_up = np.flatnonzero(crossed)
     low, size = np.array([u[0], v[0]]), np.array([u[-1] - u[0], v[-1] - v[0]])
-    scaled = np.round((places - low) / size / FINEST_PLACES)
-    cells = shapely.box(*(scaled[a[cut_up]] * FINEST_PLACES).T, *(scaled[c[cut_up]] * FINEST_PLACES).T)
+    scaled = np.round((places - low) / size / PLACES_IN_CELLS)
+    cells = shapely.box(*(scaled[a[cut_up]] * PLACES_IN_CELLS).T, *(scaled[c[cut_up]] * PLACES_IN_CELLS).T)
     straight = TRIMS_STRAIGHT / max(len(u) - 1, len(v) - 1)
-    parts = shapely.intersection(cells, region.polygons(straight), grid_size=FINEST_PLACES)
+    parts = shapely.intersection(cells, region.polygons(straight), grid_size=PLACES_IN_CELLS)
     parts, own = shapely.get_parts(parts, return_index=True)
     areas = np.flatnonzero(shapely.get_dimensions(parts) == 2)
     pieces, part = shapely.get_parts(shapely.constrained_delaunay_triangles(parts[areas]), return_index=True)
@@ -317,14 +314,14 @@ def cut_at_trims(region: ParameterRegions, u: Floats, v: Floats) -> CutTriangles
     turns = cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     corners, own = np.where((turns < 0.0)[:, None, None], corners[:, ::-1], corners)[turns != 0.0], own[turns != 0.0]
     # Which of the corners are those of the grid, if they are left, and which are new.
-    every = np.concatenate([scaled, np.round(corners / FINEST_PLACES).reshape(-1, 2)])
-    every = np.where(region.closed[0], every % (1.0 / FINEST_PLACES), every)
+    every = np.concatenate([scaled, np.round(corners / PLACES_IN_CELLS).reshape(-1, 2)])
+    every = np.where(region.closed[0], every % (1.0 / PLACES_IN_CELLS), every)
     first, number = np.unique(every, axis=0, return_index=True, return_inverse=True)[1:]
     index = first[number.ravel()[len(places) :]]
     old = index < len(places)
     old[old] = region.contains(*places[index[old]].T)
     fresh, where = np.unique(index[~old], return_inverse=True)
-    new = region.onto_borders(every[fresh] * FINEST_PLACES * size + low)
+    new = region.onto_borders(every[fresh] * PLACES_IN_CELLS * size + low)
     index[~old] = len(places) + where
     triangles.append(index.reshape(-1, 3))
     found, of = np.concatenate(triangles), np.concatenate([whole, whole, cut_up[own]])

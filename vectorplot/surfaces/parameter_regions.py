@@ -23,7 +23,9 @@ from vectorplot.tolerances import (
     LEAST_DIVISOR,
     ON_TRIM,
     ROUNDING_OF_DOMAIN,
+    STRAIGHT_TRIM,
     TRIM_CURVE_OFF,
+    TRIMS_APART,
 )
 
 # Closed curves in u and v as cubic pieces.
@@ -232,7 +234,7 @@ class ParameterRegions:
             np.add.at(along, row, self.side[piece, None] * way)
             np.add.at(count, row, 1.0)
         # Where one piece goes on as the next both say nearly the same.
-        straight = norm(along) >= (1.0 - STRAIGHT_ON) * count
+        straight = norm(along) >= (1.0 - STRAIGHT_TRIM) * count
         size = self.size[which]
         return _unit(into) * size, np.where(straight[:, None], _unit(along), 0.0) * size
 
@@ -496,7 +498,7 @@ class RegionBorders:
         start = _unit(self.control[:, 1] - self.control[:, 0])
         end = _unit(self.control[:, 3] - self.control[:, 2])
         result = np.ones(len(self.control), dtype=np.bool_)
-        result[1:] = dot(end[:-1], start[1:]) < 1.0 - STRAIGHT_ON**2
+        result[1:] = dot(end[:-1], start[1:]) < 1.0 - STRAIGHT_TRIM**2
         result[self.offsets[:-1]] = True
         return result
 
@@ -511,10 +513,6 @@ class _Pairs:
     piece: Ints
     u: Floats
     v: Floats
-
-
-STRAIGHT_ON = 1e-3
-"""Pieces that meet without a corner lead on in one direction, but for so much of its cosine."""
 
 
 def _nearest(control: Floats, places: Floats) -> tuple[Floats, Floats]:
@@ -647,9 +645,6 @@ def near_middle(pieces: Floats, domain: Domain, periods: Domain) -> Floats:
 BEYOND = 0.5
 """Part of the domain beyond its end at which curves that run round are closed."""
 
-FLAT = 1e-7
-"""Part of what curves measure to which they are flattened to see whether they cross."""
-
 
 def check_apart(loops: Sequence[Floats], domain: Domain) -> None:
     """Errors: InputError where curves, pieces (k,4,2) each, cross or touch others, or themselves, also over the seams
@@ -664,7 +659,7 @@ def check_apart(loops: Sequence[Floats], domain: Domain) -> None:
                 every.append(loop - sizes * (np.arange(2) == axis))
     low, high = bounds_of_loops(every)
     scaled = (np.concatenate(every) - low) / np.where(high > low, high - low, 1.0)
-    points, offsets = flattened(scaled, ragged.offsets([len(one) for one in every]), FLAT)
+    points, offsets = flattened(scaled, ragged.offsets([len(one) for one in every]), TRIMS_APART)
     lines = shapely.linestrings(points, indices=ragged.owner(np.diff(offsets)))
     if not shapely.is_simple(shapely.multilinestrings(lines)):
         raise InputError("the curves of trims and holes must not cross or touch each other or themselves")

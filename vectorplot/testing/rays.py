@@ -48,6 +48,7 @@ from vectorplot.tolerances import (
     ON_BORDER_OF_DOMAIN,
     ON_CONTOUR_SINE,
     ON_SURFACE,
+    ON_TRIM,
     OWN_HIT,
     PARALLEL_SINE,
     REACH_OF_CLEARANCE,
@@ -859,7 +860,7 @@ class _Cuts:
         assert region is not None
         first = np.flatnonzero(np.diff(region.loop, prepend=-1))
         scaled = (region.control - region.start) / region.size
-        points, offsets = flattened(scaled, np.append(first, len(region.loop)), TRIMS_FLATTENED)
+        points, offsets = flattened(scaled, np.append(first, len(region.loop)), ON_TRIM)
         rings = shapely.linearrings(points, indices=ragged.owner(np.diff(offsets)))
         borders = shapely.multilinestrings(shapely.linestrings(scaled[region.side != 0][:, [0, 3]]))
         place = (np.stack([u, v], axis=1) - region.start) / region.size
@@ -880,10 +881,6 @@ class _Cuts:
         long = np.stack([norm(by) for by in self.whole.partials(u, v)], axis=1) * region.size / self.size
         inside = (within % 2 == 1) != bool(region.filled[0])
         return np.asarray(np.where(inside, -off, off) * long.min(axis=1))
-
-
-TRIMS_FLATTENED = 1e-9
-"""Part of the domain by which polygons may be off the curves that trim a surface."""
 
 
 def surface_hides(surface: Surface, eye: Floats | None, rays: Rays, middle: Floats, size: float) -> Hiding:
