@@ -707,6 +707,30 @@ OUTSIDE_DOMAIN = 1e-9
 """Part of the domain, or of the box of an implicit surface, that a place may be outside of it and still belongs to
 it."""
 
+ON_TRIM = 1e-9
+"""A place this part of the domain away from a curve that trims a surface lies on it, and belongs to the surface: files
+hold parameters to twelve digits, and seams would be slits."""
+
+BESIDE_TRIM = 1e-6
+"""Part of the domain beside a curve that trims a surface, and part of a piece of it from its ends, at which is looked
+to which side the surface lies: a thousand times what counts as on the curve, and nothing that is seen."""
+
+STRAIGHT_TRIM = 1e-3
+"""Pieces of a trimming curve that meet at a smaller sine go on as one without a corner: they come from curves that are
+smooth, to within what they may be off these."""
+
+TRIMS_APART = 1e-7
+"""Part of what trimming curves measure to which they are flattened to see whether they cross: of nearer ones it may be
+said that they do."""
+
+PLACES_IN_CELLS = 2.0**-40
+"""Places in cells that trims cut are rounded to so small parts of the domain, so that neighbours have them in common:
+a thousandth of what counts as on the trim."""
+
+TRIM_CURVE_OFF = 1e-8
+"""Part of its size by which the cubic pieces that a trimming curve is made of may be off it: nanometres on a page, and
+the pieces are what the curve is from then on."""
+
 REPEATED_OF_DOMAIN = 1e-9
 """Points of a curve this part of the domain apart repeat each other: one of them goes."""
 

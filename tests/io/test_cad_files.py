@@ -15,6 +15,7 @@ import vectorplot as vp
 from vectorplot.cli.main import run
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
+from vectorplot.io import cad_files
 from vectorplot.io.anything import scene_of
 from vectorplot.io.cad_files import CadBody, EdgeKind, body_item, cad_scene, edge_kinds
 from vectorplot.scene.scene import Scene
@@ -368,6 +369,23 @@ def test_objects_stay_as_they_were(opencascade: None):
     assert occ("BRep", "BRep_Tool").Triangulation_s(face, location) is None
     with pytest.raises(InputError, match="holds no faces"):
         scene_of(cad_parts.circle(3, 0, 0, 0))
+
+
+def test_errors_of_opencascade_are_told_in_one_line(opencascade: None, monkeypatch: pytest.MonkeyPatch):
+    def fails(*_: object) -> None:
+        raise occ("Standard", "Standard_Failure")("no such triangle")
+
+    monkeypatch.setattr(cad_files, "_divide", fails)
+    with pytest.raises(InputError, match=r"^TopoDS_Solid: OpenCASCADE cannot divide it: Standard_Failure"):
+        scene_of(cad_parts.rod(10, 40))
+
+
+def test_open_shapes_are_divided_once(opencascade: None, monkeypatch: pytest.MonkeyPatch):
+    ways, divide = [], cad_files._divide
+    monkeypatch.setattr(cad_files, "_divide", lambda *of: (ways.append(of), divide(*of)))
+    (face, *_) = explored(cad_parts.rod(10, 40), "FACE")
+    (item,) = scene_of(face).items
+    assert len(ways) == 1 and not item.mesh.is_closed
 
 
 def test_the_contour_of_a_ball_is_exact_though_its_triangles_are_not(opencascade: None):

@@ -1,4 +1,4 @@
-"""Curves on surfaces that planes have cut: traced on the whole surfaces, and cut as these are."""
+"""Curves on surfaces that planes cut or curves trim: traced on the whole surfaces, and cut as these are."""
 
 from __future__ import annotations
 
@@ -6,17 +6,17 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from vectorplot.arrays import Floats, Ints
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.curves.cut_curve import parts_outside
 from vectorplot.features.conditions import Condition
 from vectorplot.features.curve_tracing import SurfaceCurves
-from vectorplot.features.holes import inside, is_known
+from vectorplot.features.holes import inside, is_known, wrapped
 from vectorplot.geometry import ragged
 from vectorplot.geometry.chord_refinement import bisected
 from vectorplot.geometry.polylines import closed_round, joined, take, with_points
-from vectorplot.geometry.vectors import dot, from_components
+from vectorplot.geometry.vectors import cross, dot, from_components
 from vectorplot.surfaces.surface import Domain, Surface, first_jets
-from vectorplot.surfaces.trimmed import CutSurface, cuts_of, uncut
+from vectorplot.surfaces.trimmed import CutSurface, TrimmedSurface, cuts_of, uncut
 from vectorplot.tolerances import BEFORE_CUT, FAMILY_SETTLED
 
 ROUNDS, RENEWED = 8, 4
@@ -32,8 +32,8 @@ HALVINGS = 36
 def cut_as(surface: Surface, curves: SurfaceCurves, condition: Condition) -> SurfaceCurves:
     """What is left on a surface of curves of the whole one, on which a condition has the value of their level.
 
-    They end where they pass a plane, down to rounding, at whatever angle. Edge cases: a curve in a plane is left, if
-    rounding does not put it behind.
+    They end where they pass a plane or a trim, down to rounding, at whatever angle. Edge cases: a curve in a plane is
+    left, if rounding does not put it behind.
     """
     whole = uncut(surface)
     for cut in cuts_of(surface):
@@ -43,11 +43,16 @@ def cut_as(surface: Surface, curves: SurfaceCurves, condition: Condition) -> Sur
     return curves
 
 
-def _cut(whole: Surface, cut: CutSurface, curves: SurfaceCurves, condition: Condition) -> SurfaceCurves:
+def _cut(
+    whole: Surface, cut: CutSurface | TrimmedSurface, curves: SurfaceCurves, condition: Condition
+) -> SurfaceCurves:
     """The curves of the whole surface as one of the cuts leaves them."""
     twice = _led_round_twice(curves, whole.domain)
     along = _Along(cut, whole.domain, condition, twice)
-    parts = parts_outside(along, cut.regions, cut.within, 0.5 * np.arange(2.0 * along.end + 1.0))
+    if isinstance(cut, CutSurface):
+        parts = parts_outside(along, cut.regions, cut.within, 0.5 * np.arange(2.0 * along.end + 1.0))
+    else:
+        parts = _parts_within(along, cut)
     first, last = twice.offsets[:-1], twice.offsets[1:] - 1
     # Where one line ends and the next begins there is no curve.
     ends = np.union1d(parts, along.breaks)
@@ -62,6 +67,52 @@ def _cut(whole: Surface, cut: CutSurface, curves: SurfaceCurves, condition: Cond
     some = np.flatnonzero(left & ~untouched & once)
     begin, end = (along.on_surface(middle[some], outer[some]) for outer in (low, high))
     return joined([take(curves, line[untouched]), _pieces(whole, along, line[some], begin, end)])
+
+
+def _parts_within(along: _Along, cut: TrimmedSurface) -> Floats:
+    """(k,2) between which t the curves are within the trims of a surface and in none of its holes, as far as is looked:
+    at LOOKS places of each chord, and between any two places where it passes curves that trim the surface."""
+    t = np.union1d(np.arange(LOOKS * along.end + 1.0) / LOOKS, _passed(along, cut))
+    t = np.unique(np.concatenate([t, 0.5 * (t[:-1] + t[1:])]))
+    there = is_known(cut, along.places(t))
+    change = np.flatnonzero(there[1:] != there[:-1])
+
+    def goes_on(which: Ints, at: Floats) -> Bools:
+        return np.asarray(is_known(cut, along.places(at)) == there[change[which]])
+
+    before, _ = bisected(goes_on, t[change], t[change + 1], HALVINGS)
+    ends = np.concatenate([t[:1], before, t[-1:]])
+    begins = bool(there[0]) != (np.arange(len(ends) - 1) % 2 == 1)
+    return np.stack([ends[:-1][begins], ends[1:][begins]], axis=1)
+
+
+def _passed(along: _Along, cut: TrimmedSurface) -> Floats:
+    """(k,) the t at which chords of curves pass those of the borders of trims, about."""
+    import shapely
+
+    assert cut.region is not None
+    nodes, domain = from_components(along.curves.u, along.curves.v), along.domain
+    chord = np.setdiff1d(np.arange(len(nodes) - 1), along.curves.offsets[1:] - 1)
+    start, way = nodes[chord], nodes[chord + 1] - nodes[chord]
+    own = cut.region.control[cut.region.side != 0][:, [0, 3]]
+    tree, found = shapely.STRtree(shapely.linestrings(own)), [np.zeros(0)]
+    home = from_components(*wrapped(domain, *start.T))
+    turns = [np.array([i, j]) * domain.size for i in _ROUNDS[domain.closed_u] for j in _ROUNDS[domain.closed_v]]
+    for turn in turns:
+        base = home + turn
+        one, two = tree.query(shapely.linestrings(np.stack([base, base + way], axis=1)))
+        across, off = own[two, 1] - own[two, 0], own[two, 0] - base[one]
+        with np.errstate(all="ignore"):
+            part = cross(off, across) / cross(way[one], across)
+        found.append((chord[one] + part)[(part > 0.0) & (part < 1.0)])
+    return np.concatenate(found)
+
+
+_ROUNDS = {False: (0,), True: (-1, 0, 1)}
+"""Rounds of a domain, open or closed, in which a chord may pass a border."""
+
+LOOKS = 4
+"""Places of a chord of a curve at which is looked whether it is within trims."""
 
 
 def _led_round_twice(curves: SurfaceCurves, domain: Domain) -> SurfaceCurves:
@@ -104,7 +155,7 @@ def _pieces(whole: Surface, along: _Along, line: Ints, begin: Floats, end: Float
 class _Along:
     """Open curves one after the other as a single one in space, along which t counts their points."""
 
-    cut: CutSurface
+    cut: CutSurface | TrimmedSurface
     domain: Domain
     condition: Condition
     curves: SurfaceCurves

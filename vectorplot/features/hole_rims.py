@@ -12,6 +12,7 @@ from vectorplot.features.edge_splitting import divided
 from vectorplot.features.holes import (
     around,
     beside_rim_chords,
+    inside,
     into_surface,
     is_known,
     just_inside,
@@ -20,13 +21,16 @@ from vectorplot.features.holes import (
     wrapped,
 )
 from vectorplot.features.intersection_grids import cell_corners
+from vectorplot.geometry import ragged
 from vectorplot.geometry.budget import unresolved
-from vectorplot.geometry.chord_refinement import Traces, bisected, refined
+from vectorplot.geometry.chord_refinement import Traces, bisected, refined, straight_between
 from vectorplot.geometry.connectivity import concat, edges_of
 from vectorplot.geometry.polylines import closed_round
-from vectorplot.geometry.vectors import all_components, any_component
+from vectorplot.geometry.vectors import all_components, any_component, cross
+from vectorplot.surfaces.parameter_regions import ParameterRegions
 from vectorplot.surfaces.surface import Surface
-from vectorplot.tolerances import CHORD_OF_EXTENT, REPEATED_OF_DOMAIN
+from vectorplot.surfaces.trimmed import trims_of, uncut
+from vectorplot.tolerances import CHORD_OF_EXTENT, PLACES_IN_CELLS, REPEATED_OF_DOMAIN
 
 # Triangles in the domain of a surface divided where they meet holes, until one straight rim runs through each.
 
@@ -279,6 +283,54 @@ def _once(rims: Ints) -> Ints:
     return np.asarray(rims[uses[where] == 1])
 
 
+# Triangles in the domain of a surface, cut along the curves that trim it.
+
+TRIMS_STRAIGHT = 1.0 / 512.0
+"""Part of a cell by which sides of triangles may be off the curves between their ends."""
+
+
+def cut_at_trims(region: ParameterRegions, u: Floats, v: Floats) -> CutTriangles:
+    """The triangles of the cells of a grid of parameters u (m,) and v (n,), those that trims cross cut along them; of:
+    the cell of each. The corners of the grid are the first m n places; ends of sides along trims lie on these."""
+    import shapely
+
+    a, b, c, d = cell_corners(len(u) - 1, len(v) - 1)
+    places = np.stack(np.meshgrid(u, v, indexing="ij"), axis=-1).reshape(-1, 2)
+    crossed = region.borders_within(places[a], places[c])
+    middle = 0.5 * (places[a] + places[c])
+    whole = np.flatnonzero(~crossed & region.contains(middle[:, 0], middle[:, 1]))
+    triangles = [np.stack([a, b, c], axis=1)[whole], np.stack([a, c, d], axis=1)[whole]]
+    cut_up = np.flatnonzero(crossed)
+    low, size = np.array([u[0], v[0]]), np.array([u[-1] - u[0], v[-1] - v[0]])
+    scaled = np.round((places - low) / size / PLACES_IN_CELLS)
+    cells = shapely.box(*(scaled[a[cut_up]] * PLACES_IN_CELLS).T, *(scaled[c[cut_up]] * PLACES_IN_CELLS).T)
+    straight = TRIMS_STRAIGHT / max(len(u) - 1, len(v) - 1)
+    parts = shapely.intersection(cells, region.polygons(straight), grid_size=PLACES_IN_CELLS)
+    parts, own = shapely.get_parts(parts, return_index=True)
+    areas = np.flatnonzero(shapely.get_dimensions(parts) == 2)
+    pieces, part = shapely.get_parts(shapely.constrained_delaunay_triangles(parts[areas]), return_index=True)
+    own = own[areas[part]]
+    corners = shapely.get_coordinates(shapely.get_exterior_ring(pieces)).reshape(-1, 4, 2)[:, :3]
+    turns = cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    corners, own = np.where((turns < 0.0)[:, None, None], corners[:, ::-1], corners)[turns != 0.0], own[turns != 0.0]
+    # Which of the corners are those of the grid, if they are left, and which are new.
+    every = np.concatenate([scaled, np.round(corners / PLACES_IN_CELLS).reshape(-1, 2)])
+    every = np.where(region.closed[0], every % (1.0 / PLACES_IN_CELLS), every)
+    first, number = np.unique(every, axis=0, return_index=True, return_inverse=True)[1:]
+    index = first[number.ravel()[len(places) :]]
+    old = index < len(places)
+    old[old] = region.contains(*places[index[old]].T)
+    fresh, where = np.unique(index[~old], return_inverse=True)
+    new = region.onto_borders(every[fresh] * PLACES_IN_CELLS * size + low)
+    index[~old] = len(places) + where
+    triangles.append(index.reshape(-1, 3))
+    found, of = np.concatenate(triangles), np.concatenate([whole, whole, cut_up[own]])
+    kept = all_components(found != np.roll(found, 1, axis=1))
+    on_rim = len(places) + np.arange(len(new))
+    rims = np.stack([on_rim, on_rim], axis=1)
+    return CutTriangles(np.concatenate([places, new]), found[kept], rims, of[kept])
+
+
 # The rims of the holes of a surface: lines inside its domain at which it ends.
 
 FINER = 2
@@ -296,9 +348,12 @@ def hole_rims(surface: Surface, tracing: Tracing) -> SurfaceCurves:
     """The lines inside the domain at which a surface ends, because its points are not finite beyond: the rims of its
     holes, and of what is cut off where it runs to infinity; the hole is to their right.
 
-    Edge cases: rims that run over a seam are cut there; holes smaller than half a cell of the grid may be missed.
+    Edge cases: rims that run over a seam are cut there; holes smaller than half a cell of the grid may be missed. Of a
+    surface that is trimmed by curves and not cut otherwise they are these, however small; see `trim_borders`.
     """
-    domain = surface.domain
+    domain, region = surface.domain, trims_of(surface)
+    if region is not None:
+        return trim_borders(surface, region, tracing)
     columns, rows = FINER * tracing.columns, FINER * tracing.rows
     places = np.stack(np.meshgrid(*domain.grid(columns, rows), indexing="ij"), axis=-1).reshape(-1, 2)
     known = is_known(surface, places)
@@ -333,4 +388,57 @@ def hole_rims(surface: Surface, tracing: Tracing) -> SurfaceCurves:
         closed=branches.closed,
         turns=np.zeros((len(branches), 2), dtype=np.intp),
         levels=np.zeros(len(branches)),
+    )
+
+
+# The curves that trim a surface, as lines.
+
+FIRST_CHORDS = 16
+"""So many chords of a border are looked at first, besides those that corners make."""
+
+
+def trim_borders(surface: Surface, region: ParameterRegions, tracing: Tracing) -> SurfaceCurves:
+    """The borders that curves in u and v make of a surface, every point on them; what is left of it is not trimmed
+    otherwise, see trims_of. Their directions are the numbers of places as `RegionBorders` has them, and NaN."""
+    borders, domain = region.borders, surface.domain
+    if not len(borders.closed):
+        return no_curves()
+    size = np.diff(borders.offsets)
+    place = ragged.place(size)
+    step = np.maximum(size // FIRST_CHORDS, 1)[ragged.owner(size)]
+    first = np.flatnonzero(borders.corners | (place % step == 0))
+    # Each border once more at its end. A row is where its chord begins, and how far along it is from there.
+    owner = ragged.owner(size)[first]
+    behind = np.flatnonzero(np.append(owner[1:] != owner[:-1], True)) + 1
+    rows = np.insert(first, behind, borders.offsets[1:]).astype(np.float64)
+    last = np.zeros(len(rows), dtype=np.bool_)
+    last[np.cumsum(np.bincount(owner) + 1) - 1] = True
+    begin = np.repeat(borders.offsets[:-1], np.bincount(owner) + 1).astype(np.float64)
+    whole = uncut(surface)
+    extent_, most = extent(whole)[0], tracing.budget.points
+    tolerance = CHORD_OF_EXTENT * extent_ if tracing.tolerance is None else tracing.tolerance
+
+    def points_of(rows: Floats) -> Floats:
+        return whole.points(*inside(domain, borders.at(rows[:, 0], rows[:, 1] - rows[:, 0])[0]))
+
+    def image(rows: Floats) -> Floats:
+        points = points_of(rows)
+        return points if tracing.picture is None else tracing.picture(points)
+
+    lines = Traces(np.stack([begin, rows], axis=1), last)
+    finer = refined(lines, straight_between, image, tolerance or np.inf, most)
+    kept, offsets = finer.lines.unrepeated(borders.closed)
+    rows = finer.lines.points[kept]
+    places = borders.at(rows[:, 0], rows[:, 1] - rows[:, 0])[0]
+    enough = bool(finer.enough.all())
+    return replace(
+        no_curves() if enough else no_curves((unresolved("trims are off by more than the tolerance"),)),
+        u=np.ascontiguousarray(places[:, 0]),
+        v=np.ascontiguousarray(places[:, 1]),
+        points=points_of(rows),
+        directions=np.stack([rows[:, 1], np.full(len(rows), np.nan)], axis=1),
+        offsets=offsets,
+        closed=borders.closed,
+        turns=np.where(borders.closed[:, None], borders.turns, 0),
+        levels=np.zeros(len(borders.closed)),
     )

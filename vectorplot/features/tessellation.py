@@ -26,7 +26,7 @@ from vectorplot.features.edge_splitting import (
     surface_numbers,
 )
 from vectorplot.features.grid_triangulation import triangulate_surface
-from vectorplot.features.hole_rims import cut_at_holes
+from vectorplot.features.hole_rims import cut_at_holes, cut_at_trims
 from vectorplot.features.holes import beside_rim_chords, in_domain, is_known, ways_between
 from vectorplot.features.implicit_singular_lines import (
     SingularLines,
@@ -65,7 +65,7 @@ from vectorplot.surfaces.surface import (
     is_implicit,
     is_parametrised,
 )
-from vectorplot.surfaces.trimmed import creases
+from vectorplot.surfaces.trimmed import creases, trims_of
 from vectorplot.tolerances import (
     ASIDE_OF_CREASE,
     FLAT_COSINE,
@@ -299,7 +299,8 @@ def grid_net(surface: Surface, columns: int, rows: int) -> Net:
     """The triangles of a grid of so many columns and rows, cut at holes and along sharp edges."""
     domain, patch = surface.domain, Patch(surface, ())
     u, v = domain.grid(columns, rows)
-    if not patch.at(_on_grid(u, v).reshape(-1, 3)).known.all():
+    region = trims_of(surface)
+    if region is None and not patch.at(_on_grid(u, v).reshape(-1, 3)).known.all():
         # Beside a line of the grid along a rim nobody knew on which side the surface is.
         u, v = (_uneven(lines, seed) for seed, lines in enumerate((u, v)))
     # No side of a triangle may lead over a sharp edge.
@@ -311,8 +312,13 @@ def grid_net(surface: Surface, columns: int, rows: int) -> Net:
     number = seam_numbers(domain, columns, rows).ravel()
     vertices = patch.at(places)
     grid = vertices.points.reshape(columns + 1, rows + 1, 3)
-    cut, _ = triangulate_surface(grid, closed_u=domain.closed_u, closed_v=domain.closed_v)
-    holed = cut_at_holes(surface, places[:, :2], _with_sides(number[cut]), vertices.known)
+    if region is not None:
+        holed = cut_at_trims(region, u, v)
+        number = np.append(number, np.arange(len(number), len(holed.places)))
+        holed = replace(holed, triangles=_with_sides(number[holed.triangles]))
+    else:
+        cut, _ = triangulate_surface(grid, closed_u=domain.closed_u, closed_v=domain.closed_v)
+        holed = cut_at_holes(surface, places[:, :2], _with_sides(number[cut]), vertices.known)
     new = np.column_stack([holed.places[len(places) :], np.full(len(holed.places) - len(places), ON_RIM)])
     vertices.places[holed.on_rim[: len(places)], 2] = ON_RIM
     vertices = vertices.joined(patch.at(_on_creases(patch, _wrapped(domain, new))))

@@ -274,7 +274,7 @@ def cad_scene(path: Path, tolerance: float = USUAL_PART_TOLERANCE) -> Scene:
         raise not_installed(f"{name}: a file of a CAD system", BINDING, "step") from None
     suffix = path.suffix.lower()
     try:
-        with _quietly():
+        with _quietly(), _errors_told("read"):
             if suffix in _SHAPE_SUFFIXES:
                 parts = [_Part(_read_shape(path), _nowhere(), path.stem)]
             else:
@@ -282,13 +282,19 @@ def cad_scene(path: Path, tolerance: float = USUAL_PART_TOLERANCE) -> Scene:
             return _scene(parts, max(tolerance, LEAST_PART_TOLERANCE))
     except InputError as error:
         raise (error if error.file else InputError(error.cause, file=name)) from None
+
+
+@contextmanager
+def _errors_told(what: str) -> Iterator[None]:
+    """Errors of OpenCASCADE, all of which are of classes of its own, as InputError; what: what it cannot do then."""
+    try:
+        yield
     except MemoryError:
-        raise InputError("too large for the memory", file=name) from None
+        raise InputError("too large for the memory") from None
     except Exception as error:
-        # Of OpenCASCADE, all of whose errors are of a class of its own.
         if not type(error).__module__.startswith("OCP"):
             raise
-        raise InputError(f"OpenCASCADE cannot read it: {type(error).__name__} {error}", file=name) from None
+        raise InputError(f"OpenCASCADE cannot {what} it: {type(error).__name__} {error}") from None
 
 
 class _Numbers:
@@ -463,14 +469,14 @@ def cad_object_scene(shown: Any) -> Scene | None:
     is wrapped, the values of a workplane, the shapes of an assembly, the part of a builder. None for anything else; the
     object stays as it was.
 
-    Errors: InputError for one without faces.
+    Errors: InputError for one without faces, and for one that OpenCASCADE cannot divide into triangles.
     """
     name = type(shown).__name__
     parts = _parts_of_object(shown, name.lower())
     if not parts:
         return None
     try:
-        with _quietly():
+        with _quietly(), _errors_told("divide"):
             return _scene(parts, USUAL_PART_TOLERANCE)
     except InputError as error:
         raise InputError(f"{name}: {error.cause}") from None
@@ -593,20 +599,25 @@ def _items_of_part(part: _Part, distance: float, extent: float) -> list[Item]:
     read."""
     solids = list(_explored(part.shape, "SOLID"))
     free = list(_explored(part.shape, "FACE", outside="SOLID"))
-    sewn = _sewn(free, SEWN_OF_EXTENT * extent) if free else []
+    sewn, open_ = _sewn(free, SEWN_OF_EXTENT * extent) if free else ([], [])
     items = list[Item]()
-    for shape in [*solids, *sewn]:
+    for shape, closes in [*((one, True) for one in (*solids, *sewn)), *((one, False) for one in open_)]:
         called, own = part.within(shape)
         name, colour = called or part.name, part.colour if own is None else own
         ways = _occ("IMeshTools").IMeshTools_MeshAlgoType
+        found = list[tuple[int, bool, list[Item]]]()
         # The first way takes a tenth of the time on plates with hundreds of bores, and fails on some faces.
         for way in (ways.IMeshTools_MeshAlgoType_Delabella, ways.IMeshTools_MeshAlgoType_Watson):
             may_stop()
             _divide(shape, distance, way)
             body, left = _body(shape, colour, part.within)
             made = [body_item(name, body)] if len(body.triangles) else []
-            if not left and all(item.mesh.is_closed for item in made):
+            gaps = closes and not all(item.mesh.is_closed for item in made)
+            found.append((left, gaps, made))
+            if not left and not gaps:
                 break
+        # Of two ways that fail the one that leaves out less.
+        left, _, made = min(found, key=lambda one: one[:2])
         if left:
             text = f"{name}: {left} faces could not be divided into triangles: they are left out"
             warnings.warn(text, InputWarning, stacklevel=2)
@@ -624,8 +635,8 @@ def _divide(shape: Any, distance: float, way: Any) -> None:
     _occ("BRepMesh").BRepMesh_IncrementalMesh(shape, fineness)
 
 
-def _sewn(faces: Sequence[Any], near: float) -> list[Any]:
-    """Solids and open shapes that faces of no solid make, which are joined along edges that are near each other."""
+def _sewn(faces: Sequence[Any], near: float) -> tuple[list[Any], list[Any]]:
+    """Solids, and open shapes, that faces of no solid make, which are joined along edges that are near each other."""
     sewing = _occ("BRepBuilderAPI").BRepBuilderAPI_Sewing(near)
     for face in faces:
         sewing.Add(face)
@@ -642,7 +653,7 @@ def _sewn(faces: Sequence[Any], near: float) -> list[Any]:
         for face in alone:
             builder.Add(compound, face)
         rest.append(compound)
-    return [*made, *rest]
+    return made, rest
 
 
 def _body(shape: Any, colour: Floats | None, within: Callable[[Any], _Look]) -> tuple[CadBody, int]:

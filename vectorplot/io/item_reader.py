@@ -51,6 +51,7 @@ from vectorplot.io.surface_line_words import (
     read_smooth_lines,
     read_surface_curve,
     read_terrain_lines,
+    read_trim,
 )
 from vectorplot.scene.face_looks import FaceLook
 from vectorplot.scene.item import Pattern
@@ -146,6 +147,16 @@ def _curves(
     return handle
 
 
+def _read_trim(reader: ItemCursor, draft: Draft) -> None:
+    """A curve in u and v within which the surface is left, or of a hole in it."""
+    draft.trim_index, within = reader.at, reader.words[reader.at] == "trim"
+    loop, reader.at = read_trim(reader.source, reader.at, draft.owner)
+    if within:
+        draft.trims = (*draft.trims, loop)
+    else:
+        draft.trim_holes = (*draft.trim_holes, loop)
+
+
 def _integral_lines(reader: ItemCursor, draft: Draft) -> None:
     """Words about integral curves: what they begin with depends on the kind of the item."""
     draft.curves, reader.at = read_integral_lines(reader.source, reader.at, draft.owner, draft.curves, draft.kind)
@@ -159,6 +170,7 @@ SURFACE_LINE_WORDS: dict[str, Callable[[ItemCursor, Draft], None]] = {
     "level_lines": _curves(read_level_lines),
     "slices": _curves(read_slices),
     "surface_curve": _curves(read_surface_curve),
+    **dict.fromkeys(("trim", "trim_hole"), _read_trim),
     **dict.fromkeys(TERRAIN_WORDS, _curves(read_terrain_lines)),
     "smooth_lines": _curves(read_smooth_lines),
     "smooth_contours": _curves(read_smooth_contours),

@@ -196,6 +196,9 @@ class Draft:
     curve: Curve | None = None
     terrain: Mesh | None = None
     curves = CurveDraft()
+    trims: tuple[Any, ...] = ()
+    trim_holes: tuple[Any, ...] = ()
+    trim_index: int = 0
 
     def __init__(self, name: str, index: int) -> None:
         self.name = name
@@ -316,6 +319,12 @@ def _surface(draft: Draft, surface: Surface | ImplicitSurface) -> tuple[Surface 
     ):
         if given:
             raise InputError(f"'{word}' is for polyhedra only")
+    if draft.trim_index:
+        if not is_parametrised(surface):
+            raise InputError("'trim' is for surfaces with parameters u and v only")
+        from vectorplot.surfaces.trimmed import TrimmedSurface
+
+        surface = TrimmedSurface(surface, trims=draft.trims, holes=draft.trim_holes)
     shape = placed_surface(surface, draft.placement)
     if draft.curves.lines.paths and not is_parametrised(shape):
         raise InputError("'surface_curve' is for surfaces with parameters u and v only")
@@ -330,6 +339,7 @@ def _space_curve(draft: Draft, words: Words, curve: Curve) -> Curve:
     from vectorplot.io.scene_surfaces import placed_curve
 
     _check_faceless(draft, "curve")
+    _check_untrimmed(draft, words)
     _check_lineless(draft, words)
     return placed_curve(curve, draft.placement)
 
@@ -344,6 +354,11 @@ def _check_lineless(draft: Draft, words: Words) -> None:
         words.fail(draft.curves.index, f"{draft.owner}'{words.words[draft.curves.index]}' is for surfaces only")
 
 
+def _check_untrimmed(draft: Draft, words: Words) -> None:
+    if draft.trim_index:
+        words.fail(draft.trim_index, f"{draft.owner}'{words.words[draft.trim_index]}' is for surfaces only")
+
+
 def _check_unparametrised(draft: Draft, words: Words) -> None:
     if draft.curves.lines.columns or draft.curves.lines.rows:
         words.fail(draft.curves.index, f"{draft.owner}'parameter_lines' is for surfaces only")
@@ -352,6 +367,7 @@ def _check_unparametrised(draft: Draft, words: Words) -> None:
 
 
 def _polyhedron(draft: Draft, words: Words, parts: Sequence[Mesh]) -> Mesh:
+    _check_untrimmed(draft, words)
     _check_unparametrised(draft, words)
     mesh = _SHAPES[draft.kind or ""](draft, words, parts)
     if draft.removed is not None:

@@ -48,6 +48,8 @@ ITEM_WORDS = (
         "slices",
         "contours",
         "surface_curve",
+        "trim",
+        "trim_hole",
         "smooth_lines",
         "smooth_contours",
         "isophote_edges",

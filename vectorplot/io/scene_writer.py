@@ -41,6 +41,7 @@ from vectorplot.surfaces.graphs import Graph, PolarGraph
 from vectorplot.surfaces.implicit import ImplicitFunction
 from vectorplot.surfaces.inversion import InvertedSurface
 from vectorplot.surfaces.minimal import HelicoidCurve, MinimalSurface, SpiralCurve
+from vectorplot.surfaces.parameter_regions import Loop
 from vectorplot.surfaces.placed_surface import PlacedImplicit, PlacedSurface
 from vectorplot.surfaces.quadrics import (
     Cone,
@@ -181,7 +182,18 @@ def _trimmed(part: TrimmedSurface) -> str:
             if not angular:
                 raise InputError(f"the scene language has no word for a part in {name} of a {type(whole).__name__}")
             words += f" {name} {_degrees(*span)}"
-    return words
+    trims = [f"\n  trim {_loop(loop)}" for loop in part.trims]
+    return words + "".join([*trims, *(f"\n  trim_hole {_loop(loop)}" for loop in part.holes)])
+
+
+def _loop(loop: Loop) -> str:
+    """A curve in u and v that trims a surface."""
+    if isinstance(loop, FunctionCurve):
+        u, v, _ = _formulas(loop.function).expressions
+        return f"{dumps(u.text)} {dumps(v.text)} t {_numbers((loop.start, loop.end))}"
+    if is_curve(loop):
+        raise InputError(f"the scene language has no word for a {type(loop).__name__} that trims a surface")
+    return " , ".join(_numbers(corner) for corner in np.asarray(loop, dtype=np.float64))
 
 
 def _capped(body: Capped) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Any
 
 from vectorplot.errors import InputError
 from vectorplot.io.scene_words import Words
@@ -141,6 +142,29 @@ def read_surface_curve(words: Words, at: int, owner: str, draft: CurveDraft) -> 
         return _with_lines(draft, start, replace(draft.lines, paths=(*draft.lines.paths, path))), at
     except InputError as error:
         words.fail(start, f"{owner}surface_curve: {error.cause}")
+
+
+def read_trim(words: Words, at: int, owner: str) -> tuple[Any, int]:
+    """A closed curve in u and v that trims a surface: two formulas in t and its range, or the corners of a polygon."""
+    from vectorplot.io.expressions import parse_expression
+    from vectorplot.io.shape_arguments import Formulas, formula_curve, read_formulas, read_numbers
+
+    what, start = words.words[at], at + 1
+    formulas, after = read_formulas(2, "t")(words, start, owner, what)
+    if words.words[after] == "t":
+        (first, last), after = read_numbers(2)(words, after + 1, owner, f"t of {what}")
+        plane = Formulas((*formulas.expressions, parse_expression("0", ("t",))))
+        try:
+            return formula_curve(plane, first, last, closed=False), after
+        except InputError as error:
+            words.fail(start - 1, f"{owner}{what}: {error.cause}")
+    if words.words[after] != ",":
+        words.fail(after, f"{owner}{what}: expected 't' and its range, or ',' and corners, got {words.shown(after)}")
+    corners, at = list[tuple[float, ...]](), start
+    while not corners or words.words[at] == ",":
+        corner, at = read_numbers(2)(words, at + bool(corners), owner, f"u and v of a corner of {what}")
+        corners.append(corner)
+    return corners, at
 
 
 def read_integral_lines(

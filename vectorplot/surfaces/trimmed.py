@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -14,6 +15,17 @@ from vectorplot.geometry.mesh_cuts import HalfSpaces
 from vectorplot.surfaces.capped_bodies import Capped
 from vectorplot.surfaces.graphs import is_graph
 from vectorplot.surfaces.inversion import InvertedSurface
+from vectorplot.surfaces.parameter_regions import (
+    MOST_LOOPS,
+    Loop,
+    ParameterRegions,
+    bounds_of_loops,
+    check_apart,
+    led_back,
+    loop_pieces,
+    near_middle,
+    parameter_region,
+)
 from vectorplot.surfaces.placed_surface import MovableSurface, PlacedSurface
 from vectorplot.surfaces.surface import Domain, OverDomain, Surface
 from vectorplot.tolerances import ROUNDING, ZERO_OF_EXTENT
@@ -25,7 +37,7 @@ Range = tuple[float, float]
 
 @dataclass(frozen=True, eq=False)
 class TrimmedSurface(MovableSurface):
-    """The part of a parametrised surface over smaller ranges of u and v.
+    """The part of a parametrised surface over smaller ranges of u and v, or within closed curves in u and v.
 
     Parameters
     ----------
@@ -33,47 +45,107 @@ class TrimmedSurface(MovableSurface):
         What is trimmed.
     u, v : (float, float), optional
         Start and end of the parameters; the whole range where None.
+    trims : sequence of curves, optional
+        Closed curves in u and v: what is within them is left; all, where there are none. Each is the corners (n, 2) of
+        a polygon, or a curve of the room curves in the plane z = 0, x for u and y for v, which may have corners.
+    holes : sequence of curves, optional
+        Closed curves like these: what is within them is gone. A curve within a hole bounds what is left again.
 
     Raises
     ------
     InputError
-        For empty ranges, and for ranges that leave the domain or are more than one round.
+        For empty ranges, and for ranges that leave the domain or are more than one round; for curves that do not close,
+        are not finite, cross or touch others or themselves; where trims leave nothing.
 
     Notes
     -----
     Where the surface is closed a range may run over the seam; if it is as long as the whole one the part is closed too.
+    There curves may run over the seam, too, and a curve may run round once and end a whole round from where it begins:
+    what is to its left is within it. Parts of curves beyond the domain do not count.
+
+    A place on a curve belongs to the surface. Curves are made of cubic pieces, off by 1e-8 of their size at most;
+    polygons are exact. The domain is a little larger than what is within the trims.
 
     Examples
     --------
     >>> import numpy as np
-    >>> from vectorplot import surfaces
+    >>> from vectorplot import curves, surfaces
     >>> dome = surfaces.TrimmedSurface(surfaces.Sphere(), v=(0.0, np.pi / 2))
     >>> dome.domain.v_start, dome.domain.closed_u
     (0.0, True)
+    >>> window = surfaces.TrimmedSurface(surfaces.Sphere(), holes=[curves.Circle((1.0, 0.5, 0.0), 0.25)])
+    >>> bool(np.isnan(window.points(1.0, 0.5)).all()), bool(np.isfinite(window.points(1.0, 0.9)).all())
+    (True, True)
     """
 
     surface: Surface
     u: Range | None = None
     v: Range | None = None
+    trims: Sequence[Loop] = ()
+    holes: Sequence[Loop] = ()
 
     def __post_init__(self) -> None:
         from vectorplot.surfaces.function_surface import with_derivatives
 
         object.__setattr__(self, "surface", with_derivatives(self.surface))
-        # Asked once, so that a range that does not fit is an error here and now.
+        for name in ("trims", "holes"):
+            loops = tuple(getattr(self, name))
+            if len(loops) > MOST_LOOPS:
+                raise InputError(f"{len(loops)} {name}: expected at most {MOST_LOOPS}")
+            object.__setattr__(self, name, loops)
+        # Asked once, so that ranges and curves that do not fit are an error here and now.
         _ = self.domain
+        if self.region is not None and not self.region.leaves_anything:
+            raise InputError("trims and holes leave nothing of the surface")
 
     @cached_property
-    def domain(self) -> Domain:
-        """The smaller rectangle."""
+    def _ranges(self) -> Domain:
+        """The part of the domain over the ranges, whatever the curves."""
         d = self.surface.domain
         u_start, u_end, closed_u = _part("u", self.u, d.u_start, d.u_end, d.closed_u)
         v_start, v_end, closed_v = _part("v", self.v, d.v_start, d.v_end, d.closed_v)
         return Domain(u_start, u_end, v_start, v_end, closed_u=closed_u, closed_v=closed_v)
 
+    @cached_property
+    def _loops(self) -> list[Floats]:
+        """The closed cubic pieces of trims, and then those of holes."""
+        names = [
+            f"{what} {number}" for what, some in (("trim", self.trims), ("hole", self.holes)) for number in _up(some)
+        ]
+        pieces = [loop_pieces(*of) for of in zip(names, (*self.trims, *self.holes), strict=True)]
+        pieces = [near_middle(one, self._ranges, self.surface.domain) for one in pieces]
+        if pieces:
+            check_apart(pieces, self.surface.domain)
+        return [led_back(*of, self._ranges) for of in zip(names, pieces, strict=True)]
+
+    @cached_property
+    def domain(self) -> Domain:
+        """The smaller rectangle."""
+        return _around(self._ranges, self._loops[: len(self.trims)]) if self.trims else self._ranges
+
+    @cached_property
+    def region(self) -> ParameterRegions | None:
+        """What trims and holes leave of the domain; None where there are none."""
+        if not self._loops:
+            return None
+        # A smaller domain may lie over a seam.
+        loops = [near_middle(loop, self.domain, self.surface.domain) for loop in self._loops[len(self.trims) :]]
+        return parameter_region(self.domain, [*self._loops[: len(self.trims)], *loops], filled=not self.trims)
+
+    @property
+    def whole(self) -> TrimmedSurface:
+        """The same over the whole of its domain, without trims and holes."""
+        d = self.domain
+        u = self.u if d.closed_u else (d.u_start, d.u_end)
+        v = self.v if d.closed_v else (d.v_start, d.v_end)
+        return TrimmedSurface(self.surface, u, v)
+
     def points(self, u: Floats, v: Floats) -> Floats:
-        """(..., 3) points."""
-        return self.surface.points(u, v)
+        """(..., 3) points; NaN beyond trims and in holes."""
+        points = self.surface.points(u, v)
+        if self.region is None:
+            return points
+        return np.where(self.region.contains(u, v)[..., None], points, np.nan)
 
     def partials(self, u: Floats, v: Floats) -> tuple[Floats, Floats]:
         """(..., 3) derivatives by u and by v."""
@@ -82,6 +154,34 @@ class TrimmedSurface(MovableSurface):
     def second_partials(self, u: Floats, v: Floats) -> tuple[Floats, Floats, Floats]:
         """(..., 3) second derivatives: by u twice, by u and v, by v twice."""
         return self.surface.second_partials(u, v)
+
+
+AROUND_TRIMS = 1.0 / 32.0
+"""Part of what trims measure by which the domain goes on beyond them, where the surface does: so ends of the domain are
+no tangents of curves."""
+
+
+def _up(some: Sequence[Loop]) -> range:
+    return range(1, len(some) + 1)
+
+
+def _around(domain: Domain, trims: Sequence[Floats]) -> Domain:
+    """The part of a domain around curves."""
+    low, high = bounds_of_loops(trims)
+    margin = AROUND_TRIMS * (high - low)
+    ends: list[tuple[float, float, bool]] = []
+    for own, start, end, closed in zip(
+        np.array([low - margin, high + margin]).T.tolist(),
+        (domain.u_start, domain.v_start),
+        (domain.u_end, domain.v_end),
+        (domain.closed_u, domain.closed_v),
+        strict=True,
+    ):
+        first, last = own if closed else (max(own[0], start), min(own[1], end))
+        # Curves that measure a round leave it closed; of those beyond the domain is told later that they leave nothing.
+        ends.append((first, last, False) if 0.0 < last - first < end - start else (start, end, closed))
+    (u_start, u_end, closed_u), (v_start, v_end, closed_v) = ends
+    return Domain(u_start, u_end, v_start, v_end, closed_u=closed_u, closed_v=closed_v)
 
 
 def _part(name: str, wanted: Range | None, start: float, end: float, closed: bool) -> tuple[float, float, bool]:
@@ -139,23 +239,37 @@ class CutSurface(MovableSurface):
 
 
 def uncut(surface: Surface) -> Surface:
-    """The whole surface with the same parameters, of one that planes have cut, wherever it was moved since."""
+    """The whole surface over the same domain, of one that planes have cut or curves have trimmed, wherever it was moved
+    since."""
     if isinstance(surface, CutSurface):
         return uncut(surface.surface)
+    if isinstance(surface, TrimmedSurface) and surface.region is not None:
+        return uncut(surface.whole)
     if isinstance(surface, PlacedSurface | TrimmedSurface | InvertedSurface | OverDomain):
         whole = uncut(surface.surface)
         return surface if whole is surface.surface else replace(surface, surface=whole)
     return surface
 
 
-def cuts_of(surface: Surface) -> list[CutSurface]:
-    """The cuts through a surface, the last one first, each through the whole surface as it was then."""
-    found: list[CutSurface] = []
+def cuts_of(surface: Surface) -> list[CutSurface | TrimmedSurface]:
+    """The cuts through a surface by planes, and its trims by curves, the last ones first, each of the whole surface as
+    it was then."""
+    found: list[CutSurface | TrimmedSurface] = []
     while isinstance(surface, PlacedSurface | TrimmedSurface | InvertedSurface | OverDomain | CutSurface):
         if isinstance(surface, CutSurface):
             found.append(replace(surface, surface=uncut(surface)))
+        elif isinstance(surface, TrimmedSurface) and surface.region is not None:
+            found.append(surface)
         surface = surface.surface
     return found
+
+
+def trims_of(surface: Surface) -> ParameterRegions | None:
+    """What curves leave of the domain of a surface, if it is trimmed by them once and cut by nothing else."""
+    cuts = cuts_of(surface)
+    if len(cuts) == 1 and isinstance(cuts[0], TrimmedSurface) and cuts[0].domain == surface.domain:
+        return cuts[0].region
+    return None
 
 
 # Whether a surface is known to be embedded: it meets itself nowhere, and has a tangent plane everywhere.
@@ -229,7 +343,7 @@ def _trimmed(part: SmoothPart, whole: TrimmedSurface) -> SmoothPart | None:
     domain, own = whole.domain, part.surface.domain
     v = max(domain.v_start, own.v_start), min(domain.v_end, own.v_end)
     try:
-        surface = TrimmedSurface(part.surface, whole.u, v)
+        surface = TrimmedSurface(part.surface, whole.u, v, whole.trims, whole.holes)
     except InputError:
         return None
     return SmoothPart(surface, tuple(c for c in part.creases if domain.v_start < c < domain.v_end), part.is_cap)

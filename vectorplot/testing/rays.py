@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.curves.bezier import flattened
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul
@@ -31,7 +32,7 @@ from vectorplot.surfaces.surface import (
     is_implicit,
     is_parametrised,
 )
-from vectorplot.surfaces.trimmed import CutSurface, cuts_of, smooth_parts, uncut
+from vectorplot.surfaces.trimmed import CutSurface, TrimmedSurface, cuts_of, smooth_parts, uncut
 from vectorplot.tolerances import (
     FIRST_DAMPING,
     FOOT_NO_BETTER,
@@ -47,6 +48,7 @@ from vectorplot.tolerances import (
     ON_BORDER_OF_DOMAIN,
     ON_CONTOUR_SINE,
     ON_SURFACE,
+    ON_TRIM,
     OWN_HIT,
     PARALLEL_SINE,
     REACH_OF_CLEARANCE,
@@ -827,7 +829,7 @@ class _Cuts:
     size: of a unit."""
 
     whole: Surface
-    cuts: list[CutSurface]
+    cuts: list[CutSurface | TrimmedSurface]
     size: float
 
     def gone(self, u: Floats, v: Floats) -> Floats:
@@ -836,6 +838,9 @@ class _Cuts:
         if not len(u):
             return depth
         for cut in self.cuts:
+            if isinstance(cut, TrimmedSurface):
+                depth = np.maximum(depth, self._beyond(cut, u, v))
+                continue
             points = cut.surface.points(u, v)
             behind = [region.heights(points).min(axis=0) for region in cut.regions]
             behind += [] if cut.within is None else [(-cut.within.heights(points)).max(axis=0)]
@@ -845,6 +850,37 @@ class _Cuts:
             for some in behind:
                 depth = np.maximum(depth, some * scale / self.size)
         return depth
+
+    def _beyond(self, cut: TrimmedSurface, u: Floats, v: Floats) -> Floats:
+        """(n,) how far places are outside of what is within trims, in units; negative inside. By polygons so near the
+        curves that they tell nothing else."""
+        import shapely
+
+        region = cut.region
+        assert region is not None
+        first = np.flatnonzero(np.diff(region.loop, prepend=-1))
+        scaled = (region.control - region.start) / region.size
+        points, offsets = flattened(scaled, np.append(first, len(region.loop)), ON_TRIM)
+        rings = shapely.linearrings(points, indices=ragged.owner(np.diff(offsets)))
+        borders = shapely.multilinestrings(shapely.linestrings(scaled[region.side != 0][:, [0, 3]]))
+        place = (np.stack([u, v], axis=1) - region.start) / region.size
+        place -= np.where(region.closed, np.floor(place), 0.0)
+        within = np.zeros(len(place), dtype=np.intp)
+        off = np.full(len(place), np.inf)
+        turns = [
+            (i, j)
+            for i in ((-1, 0, 1) if region.closed[0, 0] else (0,))
+            for j in ((-1, 0, 1) if region.closed[0, 1] else (0,))
+        ]
+        copies = [place + turn for turn in turns]
+        for polygon in shapely.polygons(rings):
+            shapely.prepare(polygon)
+            within += np.any([shapely.intersects_xy(polygon, *copy.T) for copy in copies], axis=0)
+        for copy in copies:
+            off = np.minimum(off, shapely.distance(borders, shapely.points(copy)))
+        long = np.stack([norm(by) for by in self.whole.partials(u, v)], axis=1) * region.size / self.size
+        inside = (within % 2 == 1) != bool(region.filled[0])
+        return np.asarray(np.where(inside, -off, off) * long.min(axis=1))
 
 
 def surface_hides(surface: Surface, eye: Floats | None, rays: Rays, middle: Floats, size: float) -> Hiding:

@@ -14,9 +14,10 @@ from vectorplot.features.holes import beside_rim_chords, inside
 from vectorplot.features.implicit_singular_lines import SingularEquations, line_tangents, onto_lines
 from vectorplot.geometry import records
 from vectorplot.geometry.vectors import all_finite, cross, dot, from_components
+from vectorplot.surfaces.parameter_regions import RegionBorders
 from vectorplot.surfaces.splines import SplineSurface
 from vectorplot.surfaces.stacked import of_some
-from vectorplot.surfaces.surface import first_jets
+from vectorplot.surfaces.surface import Surface, first_jets
 from vectorplot.tolerances import FAMILY_SETTLED, JUST_BEFORE, LEAST_DIVISOR, MISSED_OF_CHORD, TOUCHING_SHEETS_SINE
 from vectorplot.visibility.smooth.sheets import ImplicitSheet, OnParametrised, TangentPlanes
 
@@ -201,6 +202,38 @@ class RimCurves:
         points = surface.points(*inside(surface.domain, places))
         at, after, before = points.reshape(3, count, 3)
         return Along(places[:count], at, (after - before) / (2.0 * RIM_STEP))
+
+
+@dataclass(frozen=True, eq=False)
+class TrimCurves:
+    """Borders that curves in u and v make of a parametrised surface; first of their second places are the numbers of
+    places as `RegionBorders` has them."""
+
+    surface: OnParametrised
+    borders: RegionBorders
+    sheet: int
+    second: int = -1
+
+    def between(self, chords: Chords, part: Floats) -> Along:
+        """The curves at a part of their chords."""
+        first, last = (ends[:, 0] for ends in chords.second_places)
+        start = chords.places[0]
+        surface = self.surface.surface_at(start)
+        long = self.borders.lengths(first, last)
+        at = self.borders.at(first, part * long)[0]
+        # At a corner derivatives are those of the piece that the chord belongs to.
+        slopes = self.borders.at(first, inner_part(part) * long)[1] * long[:, None]
+        # The border runs on over seams; its chord may be whole rounds further on.
+        at = at + np.round((start[:, :2] - self.borders.at(first, 0.0 * part)[0]) / _sizes(surface)) * _sizes(surface)
+        places = np.concatenate([at, start[:, 2:]], axis=1)
+        points, along_u, along_v = first_jets(surface, *inside(surface.domain, places))
+        numbers = from_components(self.borders.number(first, part * long), 0.0, 0.0)
+        return Along(places, points, slopes[:, :1] * along_u + slopes[:, 1:] * along_v, numbers)
+
+
+def _sizes(surface: Surface) -> Floats:
+    """(2,) or (k,2) the sizes of domains."""
+    return from_components(*surface.domain.size)
 
 
 @dataclass(frozen=True, eq=False)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -19,6 +19,7 @@ from vectorplot.features.mesh_sections import implicit_mesh_section, mesh_sectio
 from vectorplot.features.patches import SurfaceGrids
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.boxes import SlabHulls
+from vectorplot.geometry.chord_refinement import bisected
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.polylines import closed_round
 from vectorplot.geometry.vectors import all_finite
@@ -35,7 +36,7 @@ from vectorplot.visibility.smooth.curve_families import (
     SheetsMeet,
     SpatialCurves,
 )
-from vectorplot.visibility.smooth.events import roots_along
+from vectorplot.visibility.smooth.events import Roots, roots_along
 from vectorplot.visibility.smooth.implicit_items import as_spatial_curves, tracing_in_world
 from vectorplot.visibility.smooth.sheets import ImplicitSheet, ParametricSheet
 from vectorplot.visibility.smooth.traced_curves import Curves, as_curves, no_curves, together
@@ -93,9 +94,60 @@ def within_box(curves: Curves, sheet: ImplicitSheet) -> Curves:
     roots = roots_along(curves, depths, values)
     at = curves.at(roots.chord, roots.part)
     second = np.where(np.isfinite(curves.second_places[roots.chord]), at.points, np.nan)
-    order = np.argsort(np.concatenate([np.arange(len(values)), roots.chord + roots.part]), kind="stable")
+    return _divided(curves, values >= 0.0, roots, replace(at, second_places=second))
+
+
+LOOKS = 8
+"""Places of a chord at which is looked whether it is within trims."""
+
+HALVINGS = 52
+"""Of the way from one of them to the next: it comes down to rounding."""
+
+
+def within_trims(curves: Curves, sheets: Mapping[int, SmoothSheet]) -> Curves:
+    """The parts of curves within the trims of the sheets, by their numbers, that they lie on; they end on these."""
+    trims = {k: s.trims for k, s in sheets.items() if isinstance(s, ParametricSheet) and s.trims is not None}
+    if not len(curves) or not trims:
+        return curves
+
+    def inside(chord: Ints, at: Along) -> Bools:
+        found = np.ones(len(chord), dtype=np.bool_)
+        for numbers, places in ((curves.sheet, at.places), (curves.second_sheet, at.second_places)):
+            of = numbers[curves.owner[chord]]
+            for number, trim in trims.items():
+                own = np.flatnonzero(of == number)
+                found[own] &= trim.contains(places[own, 0], places[own, 1])
+        return found
+
+    every, chord = np.arange(len(curves.points)), curves.chords
+    at_points = inside(every, Along(curves.places, curves.points, curves.points, curves.second_places))
+    part = np.arange(1, LOOKS)[:, None] / LOOKS
+    there = np.empty((LOOKS + 1, len(chord)), dtype=np.bool_)
+    there[0], there[-1] = at_points[chord], at_points[chord + 1]
+    looks = np.tile(chord, LOOKS - 1), np.broadcast_to(part, (LOOKS - 1, len(chord))).ravel()
+    there[1:-1] = inside(looks[0], curves.at(*looks)).reshape(LOOKS - 1, -1)
+    if there.all():
+        return curves
+    look, own = np.nonzero(there[1:] != there[:-1])
+    was, from_, low = there[look, own], chord[own], look / LOOKS
+
+    def goes_on(which: Ints, part: Floats) -> Bools:
+        return np.asarray(inside(from_[which], curves.at(from_[which], part)) == was[which])
+
+    before, after = bisected(goes_on, low, low + 1.0 / LOOKS, HALVINGS)
+    roots = Roots(from_, np.where(was, before, after), was)
+    at = curves.at(roots.chord, roots.part)
+    faces = ~np.isfinite(at.second_places)
+    second = np.where(faces, curves.second_places[roots.chord], at.second_places)
+    return _divided(curves, at_points, roots, replace(at, second_places=second))
+
+
+def _divided(curves: Curves, inside: Bools, roots: Roots, at: Along) -> Curves:
+    """The parts of curves inside of something: their points that are (n,), and places at which they pass its border,
+    inside before that where the roots fall."""
+    order = np.argsort(np.concatenate([np.arange(len(inside)), roots.chord + roots.part]), kind="stable")
     owner = np.concatenate([curves.owner, curves.owner[roots.chord]])[order]
-    goes_on = np.concatenate([values >= 0.0, ~roots.falls])[order]
+    goes_on = np.concatenate([inside, ~roots.falls])[order]
     goes_on[:-1] &= owner[1:] == owner[:-1]
     goes_on[-1:] = False
     points = np.concatenate([curves.points, at.points])[order]
@@ -110,7 +162,7 @@ def within_box(curves: Curves, sheet: ImplicitSheet) -> Curves:
     return Curves(
         points[kept],
         places[kept],
-        np.concatenate([curves.second_places, second])[order][kept],
+        np.concatenate([curves.second_places, at.second_places])[order][kept],
         offsets.astype(np.intp),
         curves.closed[source] & ~cut[source],
         curves.kind[source],
@@ -172,10 +224,10 @@ def meetings(scene: Scene, view: View, sheets: tuple[SmoothSheet, ...], wants: B
         # Where an implicit surface meets itself its gradient vanishes; these lines are not looked for.
         itself[number] = isinstance(sheet, ParametricSheet) and not is_embedded(sheet.surface)
         if itself[number] and wants[sheet.item] and isinstance(sheet, ParametricSheet):
-            found = self_intersections(sheet.surface, tracing=tracing)
+            found = self_intersections(sheet.asked, tracing=tracing)
             itself[number] = len(found) > 0 or bool(found.doubts)
             doubts += [(scene.items[sheet.item].name, text) for text in found.doubts]
-            parts.append(_double(found, sheet, number, sheet, number, sheet.item))
+            parts.append(within_trims(_double(found, sheet, number, sheet, number, sheet.item), {number: sheet}))
     pairs = []
     for one, two in near_sheets([sheet.vertices for sheet in sheets]):
         items = [i for i in sorted((sheets[one].item, sheets[two].item)) if wants[i]]
@@ -209,14 +261,15 @@ def _of_pairs(
     """The curves of pairs of sheets, given by their numbers and the item whose the curves are; and doubts."""
     parametrised = {k: sheet for k, sheet in enumerate(sheets) if isinstance(sheet, ParametricSheet)}
     smooth = [pair for pair in pairs if pair[0] in parametrised and pair[1] in parametrised]
-    grids = {k: SurfaceGrids(parametrised[k].surface) for pair in smooth for k in pair[:2]}
+    grids = {k: SurfaceGrids(parametrised[k].asked) for pair in smooth for k in pair[:2]}
     curves = iter(intersections_of_grids([(grids[one], grids[two]) for one, two, _ in smooth], tracing))
     result = []
     for one, two, item in pairs:
         first, second = sheets[one], sheets[two]
         if not isinstance(first, ImplicitSheet) and not isinstance(second, ImplicitSheet):
             found = next(curves)
-            result.append((_double(found, first, one, second, two, item), found.doubts))
+            whole = _double(found, first, one, second, two, item)
+            result.append((within_trims(whole, {one: first, two: second}), found.doubts))
         elif isinstance(first, ImplicitSheet) and isinstance(second, ImplicitSheet):
             result.append(implicit_with_implicit(first, one, second, two, item, tracing))
         elif isinstance(first, ImplicitSheet):
@@ -234,9 +287,10 @@ def _with_mesh(
     """The curves of a sheet and a mesh in the view's coordinates."""
     if isinstance(sheet, ImplicitSheet):
         return implicit_with_mesh(sheet, number, mesh, item, tracing)
-    section = mesh_section(sheet.surface, mesh, tracing=tracing)
+    section = mesh_section(sheet.asked, mesh, tracing=tracing)
     family, found = FaceCurves(sheet, number), section.curves
-    return as_curves(found, LineKind.INTERSECTION, item, family, section.normals), found.doubts
+    curves = as_curves(found, LineKind.INTERSECTION, item, family, section.normals)
+    return within_trims(curves, {number: sheet}), found.doubts
 
 
 def curves_of_pairs(

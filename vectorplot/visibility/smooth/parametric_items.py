@@ -33,7 +33,7 @@ from vectorplot.features.curve_tracing import SurfaceCurves, Tracing, extent, to
 from vectorplot.features.cuspidal_edges import singular_lines
 from vectorplot.features.feature_lines import Detail, Sight, surface_feature_lines
 from vectorplot.features.geodesic_curves import geodesics_between
-from vectorplot.features.hole_rims import hole_rims
+from vectorplot.features.hole_rims import hole_rims, trim_borders
 from vectorplot.features.parameter_curves import domain_borders, parameter_lines_of_each, surface_path
 from vectorplot.features.pinch_points import through_pinch_points
 from vectorplot.features.streamlines import DRAWN, evenly_spaced_curves
@@ -62,7 +62,13 @@ from vectorplot.surfaces.splines import line_pieces
 from vectorplot.surfaces.surface import Domain, Surface
 from vectorplot.surfaces.trimmed import covered_once, is_embedded, smooth_parts
 from vectorplot.visibility.polyhedra.lines import kinds_of
-from vectorplot.visibility.smooth.curve_families import ConditionCurves, DirectedCurves, ParameterCurves, RimCurves
+from vectorplot.visibility.smooth.curve_families import (
+    ConditionCurves,
+    DirectedCurves,
+    ParameterCurves,
+    RimCurves,
+    TrimCurves,
+)
 from vectorplot.visibility.smooth.sheets import ParametricSheet, parametric_sheets
 from vectorplot.visibility.smooth.traced_curves import Curves, as_curves
 from vectorplot.words import FEATURE_KINDS, LineKind
@@ -151,7 +157,7 @@ def _within(domain: Domain, rows: Floats) -> Bools:
 
 # The curves of an item with a parametrised surface as a view shows them.
 
-Found = tuple[LineKind, ConditionCurves | ParameterCurves | DirectedCurves | RimCurves, SurfaceCurves]
+Found = tuple[LineKind, ConditionCurves | ParameterCurves | DirectedCurves | RimCurves | TrimCurves, SurfaceCurves]
 
 
 def sheets_of_parametrised(view: View, surface: Surface, item: int, hides: bool) -> list[ParametricSheet]:
@@ -248,7 +254,10 @@ def _edges(view: View, sheet: ParametricSheet, number: int, tracing: Tracing) ->
     lines = _lines_of_parameters(view, sheet, number)
     result: list[Found] = [(LineKind.BOUNDARY, lines, domain_borders(surface, tracing))]
     # What has no hole in the tessellation has none on the coarser grid of its curves.
-    if sheet.holed:
+    if sheet.trims is not None:
+        trims = TrimCurves(sheet, sheet.trims.borders, number)
+        result.append((LineKind.BOUNDARY, trims, trim_borders(surface, sheet.trims, tracing)))
+    elif sheet.holed:
         result.append((LineKind.BOUNDARY, RimCurves(sheet, number), hole_rims(surface, tracing)))
     if not is_embedded(surface):
         result.append((LineKind.CREASE, straight, singular_lines(surface, tracing=tracing)))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Protocol
 
@@ -18,9 +18,10 @@ from vectorplot.features.implicit_meshes import ImplicitMesh, mesh_with_lines
 from vectorplot.features.implicit_singular_lines import CuspidalEdges, default_gradient, singular_lines
 from vectorplot.features.polygonization import polygonized, sides_of
 from vectorplot.geometry.algebra import matmul, pseudo_inverse
-from vectorplot.geometry.vectors import cross, dot, from_components, norm
+from vectorplot.geometry.vectors import any_component, cross, dot, from_components, norm
 from vectorplot.scene.view import View
 from vectorplot.surfaces.implicit import CutImplicit
+from vectorplot.surfaces.parameter_regions import ParameterRegions
 from vectorplot.surfaces.placed_surface import PlacedImplicit, PlacedSurface
 from vectorplot.surfaces.stacked import (
     StackedSurfaces,
@@ -32,7 +33,7 @@ from vectorplot.surfaces.stacked import (
     unit_normals_of,
 )
 from vectorplot.surfaces.surface import ImplicitSurface, Surface, first_jets
-from vectorplot.surfaces.trimmed import uncut
+from vectorplot.surfaces.trimmed import trims_of, uncut
 from vectorplot.tolerances import (
     LEAST_DIVISOR,
     NOISE_OF_GRADIENT,
@@ -175,6 +176,15 @@ class OnParametrised(ABC):
     def holed(self) -> bool:
         """Whether there is a surface with holes."""
 
+    @property
+    @abstractmethod
+    def trims(self) -> ParameterRegions | None:
+        """What curves leave of the domains of surfaces that they trim; None where there is none of these."""
+
+    @abstractmethod
+    def trim_at(self, places: Floats) -> Ints:
+        """(k,) which of these regions each place belongs to, -1 for one on a surface that is not trimmed."""
+
     def points(self, places: Floats) -> Floats:
         """(k,3) points."""
         surface = self.surface_at(places)
@@ -234,6 +244,12 @@ class OnParametrised(ABC):
         inside_domain = np.flatnonzero(~inner.any(axis=1))
         if self.holed and len(inside_domain):
             inner[inside_domain] = self._into_holed(places[inside_domain])
+        if self.trims is not None:
+            trim = self.trim_at(places)
+            at = np.flatnonzero(trim >= 0)
+            ways = self.trims.inwards(places[at, :2], trim[at])
+            into, along = (way[:, :1] * along_u[at] + way[:, 1:] * along_v[at] for way in ways)
+            inner[at] = _unit(inner[at]) + _unit(_across(into, along))
         return inner
 
     def _into_holed(self, places: Floats) -> Floats:
@@ -307,15 +323,40 @@ class OnParametrised(ABC):
 
     def on_sheet(self, places: Floats) -> Bools:
         """(k,) whether places lie in the domain."""
-        return in_domain(self.surface_at(places).domain, places[:, :2]) & np.isfinite(places).all(axis=1)
+        on = in_domain(self.surface_at(places).domain, places[:, :2]) & np.isfinite(places).all(axis=1)
+        if self.trims is not None:
+            trim = self.trim_at(places)
+            at = np.flatnonzero(on & (trim >= 0))
+            on[at] = self.trims.contains(places[at, 0], places[at, 1], trim[at])
+        return on
 
 
 @dataclass(frozen=True, eq=False)
 class StackedSheets(OnParametrised):
-    """Many parametrised sheets as one; the third number of a place says on which of them it is."""
+    """Many parametrised sheets as one; the third number of a place says on which of them it is. trims: of those that
+    curves trim, and trim (s,): which of these regions each sheet has, or -1."""
 
     surfaces: StackedSurfaces
     holed: bool = False
+    trims: ParameterRegions | None = None
+    trim: Ints = field(default_factory=lambda: np.zeros(0, dtype=np.intp))
+
+    @classmethod
+    def of(cls, sheets: Sequence[ParametricSheet]) -> StackedSheets:
+        """These sheets."""
+        surfaces = tuple(sheet.asked for sheet in sheets if isinstance(sheet.asked, PlacedSurface))
+        trimmed = [sheet.trims for sheet in sheets if sheet.trims is not None]
+        own = np.array([sheet.trims is not None for sheet in sheets])
+        return cls(
+            StackedSurfaces(surfaces),
+            any(sheet.holed for sheet in sheets),
+            ParameterRegions.together(trimmed) if trimmed else None,
+            np.where(own, np.cumsum(own) - 1, -1),
+        )
+
+    def trim_at(self, places: Floats) -> Ints:
+        """That of the sheet of each place."""
+        return self.trim[places[:, 2].astype(np.intp)]
 
     def surface_at(self, places: Floats) -> Surface:
         """That of the sheet of each place."""
@@ -346,6 +387,11 @@ def _at_ends(part: Floats) -> Floats:
 def _across(vectors: Floats, along: Floats) -> Floats:
     """(k,3) the parts of vectors at right angles to others; all of them where these have no length."""
     return np.asarray(vectors - (dot(vectors, along) / dot(along, along).clip(LEAST_DIVISOR))[:, None] * along)
+
+
+def _unit(vectors: Floats) -> Floats:
+    """(k,3) of length 1; 0 where they have none."""
+    return np.asarray(vectors / np.maximum(norm(vectors), LEAST_DIVISOR)[:, None])
 
 
 def _moved(places: Floats, along_u: Floats, along_v: Floats, steps: Floats) -> Floats:
@@ -436,7 +482,9 @@ HALF = 0.1
 class ParametricSheet(OnParametrised):
     """A parametrised surface, already in the view's coordinates, and its tessellation; jumps: whether it has triangles
     that were left out, because the surface jumps beneath them; holed: whether it has holes; creases: the v at which
-    another sheet of the item begins behind a sharp edge; is_cap: whether it is a flat end, without parameter lines."""
+    another sheet of the item begins behind a sharp edge; is_cap: whether it is a flat end, without parameter lines;
+    trims: the part of the domain that curves leave, if these are all that ends it: then what is beyond them is known,
+    as of no hole, and the tessellation goes on a little."""
 
     surface: Surface
     item: int
@@ -449,17 +497,27 @@ class ParametricSheet(OnParametrised):
     holed: bool = False
     creases: tuple[float, ...] = ()
     is_cap: bool = False
+    trims: ParameterRegions | None = None
 
     @cached_property
     def whole(self) -> ParametricSheet:
-        """The same on the surface before planes cut it: where they do so at a flat angle chords of its curves, and ways
-        across these, lead beyond them."""
-        surface = uncut(self.surface)
-        return self if surface is self.surface else replace(self, surface=surface)
+        """The same on the surface before planes cut it or curves trimmed it: where they do so at a flat angle chords of
+        its curves, and ways across these, lead beyond them."""
+        surface = uncut(self.surface) if self.trims is None else self.asked
+        return self if surface is self.surface else replace(self, surface=surface, trims=None)
+
+    @cached_property
+    def asked(self) -> Surface:
+        """What is known at places: beyond trims too."""
+        return self.surface if self.trims is None else uncut(self.surface)
 
     def surface_at(self, places: Floats) -> Surface:
-        """The surface, whatever the places."""
-        return self.surface
+        """That, whatever the places."""
+        return self.asked
+
+    def trim_at(self, places: Floats) -> Ints:
+        """The only one, if there is one."""
+        return np.zeros(len(places), dtype=np.intp)
 
 
 def parametric_sheets(
@@ -467,16 +525,21 @@ def parametric_sheets(
 ) -> list[ParametricSheet]:
     """The sheets of surfaces that are given in the view's coordinates, made together as far as these are alike.
 
-    Edge cases: triangles beneath which a surface jumps are left out; those with a corner in a hole end at its rim.
+    Edge cases: triangles beneath which a surface jumps are left out; those with a corner in a hole end at its rim;
+    those that trims cross are whole.
     """
     sheets: dict[int, ParametricSheet] = {}
-    for part in stacks(surfaces, (FEWEST + 1) ** 2):
-        stack = StackedSurfaces.of([surfaces[k] for k in part.tolist()])
+    trims = [trims_of(surface) for surface in surfaces]
+    asked = [s if trim is None else uncut(s) for s, trim in zip(surfaces, trims, strict=True)]
+    for part in stacks(asked, (FEWEST + 1) ** 2):
+        stack = StackedSurfaces.of([asked[k] for k in part.tolist()])
         columns, rows, deviation = fineness(stack)
         for own in alike(columns, rows):
             grids = _Grids.of(stack.take(own), int(columns[own[0]]), int(rows[own[0]]), deviation[own])
             for row, number in enumerate(part[own].tolist()):
-                sheets[number] = grids.sheet(row, surfaces[number], items[number], hides[number])
+                sheets[number] = grids.sheet(row, asked[number], items[number], hides[number])
+                if (trim := trims[number]) is not None:
+                    sheets[number] = replace(_trimmed(sheets[number], trim), surface=surfaces[number], trims=trim)
     return [sheets[number] for number in range(len(surfaces))]
 
 
@@ -531,6 +594,22 @@ class _Grids:
         return ParametricSheet(
             surface, item, hides, points, places, cut.triangles, deviations, not whole.all(), not known.all()
         )
+
+
+def _trimmed(sheet: ParametricSheet, trims: ParameterRegions) -> ParametricSheet:
+    """A sheet with those triangles of its tessellation of which a part may be within trims."""
+    u, v = sheet.vertex_places[:, 0], sheet.vertex_places[:, 1]
+    kept = any_component(trims.contains(u, v)[sheet.corners]) | trims.borders_within(
+        *(some(sheet.vertex_places[sheet.corners, :2], axis=1) for some in (np.min, np.max))
+    )
+    used, corners = np.unique(sheet.corners[kept], return_inverse=True)
+    return replace(
+        sheet,
+        vertices=sheet.vertices[used],
+        vertex_places=sheet.vertex_places[used],
+        corners=corners.reshape(-1, 3),
+        deviations=sheet.deviations[kept],
+    )
 
 
 def _longest(triangles: Floats) -> Floats:
@@ -816,7 +895,7 @@ class Sheets:
         """Placed surfaces that are closed in the same directions are asked as one, others each alone."""
         members: dict[object, list[int]] = {}
         for number, sheet in enumerate(self.sheets):
-            placed = isinstance(sheet, ParametricSheet) and isinstance(sheet.surface, PlacedSurface)
+            placed = isinstance(sheet, ParametricSheet) and isinstance(sheet.asked, PlacedSurface)
             members.setdefault(_closed(sheet) if placed else number, []).append(number)
         return tuple(self._group(numbers) for numbers in members.values())
 
@@ -825,8 +904,7 @@ class Sheets:
         if len(of) == 1:
             return SheetGroup(self.sheets[of[0]], of, False)
         sheets = [sheet for sheet in map(self.__getitem__, numbers) if isinstance(sheet, ParametricSheet)]
-        placed = tuple(sheet.surface for sheet in sheets if isinstance(sheet.surface, PlacedSurface))
-        return SheetGroup(StackedSheets(StackedSurfaces(placed), any(sheet.holed for sheet in sheets)), of, True)
+        return SheetGroup(StackedSheets.of(sheets), of, True)
 
     @cached_property
     def group(self) -> Ints:

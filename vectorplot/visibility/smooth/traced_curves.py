@@ -34,6 +34,7 @@ from vectorplot.visibility.smooth.curve_families import (
     ParameterCurves,
     RimCurves,
     SheetsMeet,
+    TrimCurves,
     joined_chords,
 )
 from vectorplot.visibility.smooth.sheets import OnParametrised, ParametricSheet, Sheets, StackedSheets
@@ -488,7 +489,11 @@ def _merged(family: Family, sheets: Sheets) -> _Merged | None:
     if isinstance(family, ConditionCurves) and isinstance(family.condition, ThroughPinchPoints):
         return None
     sheet = sheets[family.sheet]
-    if isinstance(family, ConditionCurves) and isinstance(sheet, ParametricSheet) and sheet.whole is not sheet:
+    if (
+        isinstance(family, ConditionCurves)
+        and isinstance(sheet, ParametricSheet)
+        and sheet.asked is not sheet.whole.surface
+    ):
         # These are curves of the surface before it was cut.
         return None
     degrees = family.degrees_along if isinstance(family, ParameterCurves) else ()
@@ -506,7 +511,7 @@ def _said(family: ConditionCurves) -> tuple[object, ...]:
 
 # Curves traced on parametrised surfaces as the engine takes them.
 
-OnSurface = ConditionCurves | ParameterCurves | DirectedCurves | RimCurves | FaceCurves
+OnSurface = ConditionCurves | ParameterCurves | DirectedCurves | RimCurves | TrimCurves | FaceCurves
 
 
 def as_curves(
