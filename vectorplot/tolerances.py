@@ -168,6 +168,10 @@ NEARLY_MET = 1e-7
 SETTLED_ON_SHEET = 1e-12
 """A point no farther from its foot on a sheet needs no further step: a thousandth of what counts as zero."""
 
+LIMIT_OF_LEVELS = 2.0**-27
+"""Patches around an irregular vertex of a subdivision surface are told apart until its edges are no longer than this
+part of those of the cage: what is nearer is at the vertex, to the square of this by rounding."""
+
 CROSSING_RESIDUAL = 1e-11
 """How far the images of a crossing of two curves may be apart."""
 

@@ -5,6 +5,7 @@ from .face_looks import FaceLook, FaceLooks
 from .item import SurfaceNormals
 from .pens import DepthCue, PenOverrides
 from .scales import BoxAxes, Colouring, Fields, ScaleBar
+from .subdivided import subdivided_item
 from .surface_lines import (
     FieldContours,
     FieldLines,
@@ -52,6 +53,7 @@ __all__ = [
     "look",
     "round_heights",
     "round_sections",
+    "subdivided_item",
     "terrain_mesh",
     "terrain_scene",
     "tinted",
