@@ -18,12 +18,12 @@ from vectorplot.scene.scene import Scene
 from vectorplot.surfaces.subdivision import LimitPlaces, SubdivisionSurface
 from vectorplot.words import DRAWN, LineKind
 
-SAG = 2e-4
+SAG = 2.5e-4
 """Most patches are divided until chords of the mesh are no further from the surface than this part of its size: a few
 hundredths of a mm on a page. Points of contours are exact whatever it is."""
 
-MOST_OF_ALL = 0.99
-"""Which part of the patches that is: few bend far more sharply than the others."""
+MOST_OF_ALL = 0.9
+"""Which part of the patches that is: some bend far more sharply than the others."""
 
 LIMIT_LINES = tuple(word for word in DRAWN if word != LineKind.TANGENT.word)
 """What is drawn of limit surfaces where nothing is said."""

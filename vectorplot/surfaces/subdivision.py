@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from enum import IntEnum
-from functools import cache, cached_property
+from functools import cache, cached_property, lru_cache
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -37,6 +37,9 @@ MOST_FACES_OF_VERTEX = 1 << 10
 
 MOST_LEVELS = 64
 """So deep patches around an irregular vertex are told apart at most."""
+
+MOST_RULES = 256
+"""Of so many kinds of patches the weights are kept: a moved, animated or similar cage has the same."""
 
 CHUNK = 1 << 21
 """Weights that are held at a time, about."""
@@ -132,7 +135,9 @@ def _net(cage: Mesh, creases: Ints, values: Floats) -> _Net:
     low, high = np.minimum(corner, end), np.maximum(corner, end)
     keys, edge, uses = np.unique(low * count + high, return_inverse=True, return_counts=True)
     edge, forward = edge.ravel(), corner == low
-    sharp: Bools = np.not_equal(uses, 2) | np.not_equal(np.bincount(edge, forward, len(keys)), 1.0)
+    forwards = np.bincount(edge, forward, len(keys))
+    sharp = np.ones(len(keys), dtype=np.bool_)
+    sharp[(uses == 2) & (forwards == 1.0)] = False
     sharp[_edges_of(creases, used, keys, count)] = True
     opposite = np.full(len(corner), -1)
     order = np.argsort(edge, kind="stable")
@@ -391,10 +396,11 @@ class _Ring:
     def refined(self) -> _Ring:
         """The ring of the same vertex after a step."""
         c, e, n, quads = self.centre, self.edges, self.faces, len(self.across) > 0
-        before, after = (np.roll(e, 1, axis=0), np.roll(e, -1, axis=0)) if self.closed else (e[:-1], e[1:])
+        here = np.arange(len(e))
+        before, after = (e[here - 1], e[here + 1 - len(e)]) if self.closed else (e[:-1], e[1:])
         if quads:
             faces = (c + (e if self.closed else before) + self.across + after) * 0.25
-            sides = (faces, np.roll(faces, 1, axis=0)) if self.closed else (faces[1:], faces[:-1])
+            sides = (faces, faces[here - 1]) if self.closed else (faces[1:], faces[:-1])
             inner = (c + (e if self.closed else e[1:-1]) + (sides[0] + sides[1])) * 0.25
         else:
             faces = self.across
@@ -491,8 +497,24 @@ def _children(rings: _Rings) -> tuple[list[_Rings], _Rings]:
     return parts, middle
 
 
-_DIRECTIONS = ((1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1))
-_CORNERS = ((0, 0), (1, 0), (1, 1), (0, 1))
+def _places_of_controls() -> Ints:
+    """(16,) where the controls of a quad stand among its corners, each with the eight vertices around it behind it."""
+    directions = ((0, 0), (1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1))
+    result = np.zeros((4, 4), dtype=np.intp)
+    for k, (a, b) in enumerate(((0, 0), (1, 0), (1, 1), (0, 1))):
+        for place, (x, y) in enumerate(directions):
+            for _ in range(k):
+                x, y = -y, x
+            result[a + x + 1, b + y + 1] = 9 * k + place
+    return result.ravel()
+
+
+_CONTROLS = {
+    4: _places_of_controls(),
+    3: np.array(
+        [7 * k for k in range(3)] + [7 * k + 6 for k in range(3)] + [7 * k + p for k in range(3) for p in (5, 4)]
+    ),
+}
 
 
 def _controls(rings: _Rings) -> Floats:
@@ -501,29 +523,21 @@ def _controls(rings: _Rings) -> Floats:
     Of quads those of the grid from -1 to 2, v running first; of triangles the corners, then those across the three
     sides from them, then of each corner the two behind it.
     """
-    if len(rings) == 4:
-        grid = np.zeros((4, 4, len(rings[0].centre)))
-        for k, (ring, (a, b)) in enumerate(zip(rings, _CORNERS, strict=True)):
-            grid[a + 1, b + 1] = ring.centre
-            for row, (x, y) in zip(_filled_quads(ring), _DIRECTIONS, strict=True):
-                for _ in range(k):
-                    x, y = -y, x
-                grid[a + x + 1, b + y + 1] = row
-        return grid.reshape(16, -1)
-    filled = [_filled_triangles(ring) for ring in rings]
-    behind = [ring[place] for ring in filled for place in (4, 3)]
-    return np.array([*(ring.centre for ring in rings), *(ring[5] for ring in filled), *behind])
+    filled = _filled_quads if len(rings) == 4 else _filled_triangles
+    rows = [part for ring in rings for part in (ring.centre[None], filled(ring))]
+    return np.asarray(np.concatenate(rows)[_CONTROLS[len(rings)]])
 
 
 def _filled_quads(ring: _Ring) -> Floats:
     """(8,k) the ends of edges and the corners between them all around a regular vertex, from the patch's first edge."""
     e, d = ring.edges, ring.across
+    rows = np.empty((8, e.shape[1]))
     if ring.closed:
-        rows = np.stack([e, d], axis=1).reshape(8, -1)
+        rows[::2], rows[1::2] = e, d
     else:
-        beyond = [2.0 * e[2] - d[1], 2.0 * ring.centre - e[1], 2.0 * e[0] - d[0]]
-        rows = np.array([e[0], d[0], e[1], d[1], e[2], *beyond])
-    return np.roll(rows, -2 * ring.own, axis=0)
+        rows[:5:2], rows[1:4:2] = e, d
+        rows[5], rows[6], rows[7] = 2.0 * e[2] - d[1], 2.0 * ring.centre - e[1], 2.0 * e[0] - d[0]
+    return rows[(np.arange(8) + 2 * ring.own) % 8]
 
 
 def _filled_triangles(ring: _Ring) -> Floats:
@@ -531,7 +545,7 @@ def _filled_triangles(ring: _Ring) -> Floats:
     e = ring.edges
     if not ring.closed:
         e = np.array([*e, ring.centre + e[3] - e[2], ring.centre + e[0] - e[1]])
-    return np.roll(e, -ring.own, axis=0)
+    return e[(np.arange(6) + ring.own) % 6]
 
 
 # The polynomials that controls are multiplied with.
@@ -719,38 +733,38 @@ def _turns(net: _Net) -> Ints:
 def _rule(net: _Net, sides: Ints, kinds: list[list[int]]) -> _Rule:
     """That of patches with half-edges (p,size); kinds: faces, whether they are open, kind and turns of each corner."""
     columns: list[Ints] = []
-    rings: list[tuple[list[int], list[int], list[int]]] = []
     for side, (faces, is_open, _, turns) in zip(sides.T, kinds, strict=True):
         at = side
         for _ in range(turns if is_open else 0):
             at = net.after[net.opposite[at]]
-        found: tuple[list[int], list[int], list[int]] = ([], [], [])
+        columns.append(net.corner[side])
         for place in range(faces):
-            found[1].append(len(columns))
             columns.append(net.end[at])
             if sides.shape[1] == 4:
-                found[2].append(len(columns))
                 columns.append(net.end[net.after[at]])
             last = net.before[at]
             at = net.opposite[last] if place < faces - 1 else at
         if is_open:
-            found[1].append(len(columns))
             columns.append(net.corner[last])
-        found[0].append(len(columns))
-        columns.append(net.corner[side])
-        rings.append(found)
     index, of = _distinct(np.stack(columns, axis=1))
-    rows = np.eye(index.shape[1])[of]
-    none = np.zeros((0, index.shape[1]))
-    start = [
-        _Ring(rows[c[0]], rows[e], rows[d] if d else none, not is_open, turns if is_open else 0, kind)
-        for (c, e, d), (_, is_open, kind, turns) in zip(rings, kinds, strict=True)
-    ]
+    return _Rule(index, *_weights_of_corners(tuple(map(tuple, kinds)), tuple(of.tolist())))
+
+
+@lru_cache(maxsize=MOST_RULES)
+def _weights_of_corners(kinds: tuple[tuple[int, ...], ...], of: tuple[int, ...]) -> tuple[Floats, Floats, Floats]:
+    """What a rule has besides its index; kinds: as above; of (c,): which vertex of the index each one is that is met
+    around the corners, one after the other."""
+    rows, start, first = np.eye(max(of) + 1)[list(of)], list[_Ring](), 0
+    for faces, is_open, kind, turns in kinds:
+        size = faces * (len(kinds) - 2) + is_open
+        around = rows[first + 1 : first + 1 + size]
+        edges, across = (around[::2], around[1::2]) if len(kinds) == 4 else (around, around[:0])
+        start.append(_Ring(rows[first], edges, across, not is_open, turns if is_open else 0, kind))
+        first += size + 1
     if not _is_irregular(start[0]):
-        return _Rule(index, np.zeros(len(rows[0])), _controls(start)[None], np.zeros((2, len(rows[0]))))
+        return np.zeros(rows.shape[1]), _controls(start)[None], np.zeros((2, rows.shape[1]))
     limit = start[0].limit()
-    at_corner, controls = [ring.less(limit) for ring in start], list[Floats]()
-    levels = 0
+    at_corner, controls, levels = [ring.less(limit) for ring in start], list[Floats](), 0
     while levels < MOST_LEVELS:
         levels += 1
         parts, middle = _children(at_corner)
@@ -759,15 +773,14 @@ def _rule(net: _Net, sides: Ints, kinds: list[list[int]]) -> _Rule:
         controls += [_controls(part) for part in others]
         if float(np.abs(at_corner[0].edges).max()) < LIMIT_OF_LEVELS:
             break
-    scale = float(2.0**levels)
-    rule = _Rule(index, limit, np.array(controls), np.zeros((2, len(rows[0]))))
-    ring = at_corner[0]
+    ring, stacked = at_corner[0], np.array(controls)
     if ring.kind == VertexKind.BORDER and ring.faces == 1:
         # Both edges of the patch run along the border: what is across it is seen a little inside.
+        none = np.zeros((1, rows.shape[1]), dtype=np.intp)
+        beside = _Rule(none, limit, stacked, np.zeros((2, rows.shape[1])))
         inside = np.full(1, BESIDE_BORDER)
-        beside = rule.weights(inside, inside, 3)[0, 1:]
-        return replace(rule, tangents=beside)
-    return replace(rule, tangents=scale * np.array(ring.tangents()))
+        return limit, stacked, beside.weights(inside, inside, 3)[0, 1:]
+    return limit, stacked, float(2.0**levels) * np.array(ring.tangents())
 
 
 def _distinct(index: Ints) -> tuple[Ints, Ints]:
@@ -897,16 +910,9 @@ class SubdivisionSurface:
         return np.asarray(self.cage.bounds.mean(axis=0))
 
     @cached_property
-    def _sharp(self) -> Ints:
-        """(e,2) the creases."""
-        own = np.asarray(self.creases, dtype=np.intp)
-        angle = self.crease_angle_deg
-        return own if angle is None else np.concatenate([own, sharp_edges(self.cage, angle)])
-
-    @cached_property
     def _net(self) -> _Net:
         points = self.cage.vertices[np.unique(self.cage.corners)] - self._middle
-        return _refined_cage(self.cage, self.scheme, self._sharp, points)
+        return _refined_cage(self.cage, self.scheme, self.sharp, points)
 
     @cached_property
     def _patches(self) -> tuple[list[_Rule], list[Ints], Ints, Ints, Ints]:
@@ -921,6 +927,18 @@ class SubdivisionSurface:
     def patch_count(self) -> int:
         """How many patches there are."""
         return len(self._net.source)
+
+    @property
+    def source(self) -> Ints:
+        """(f,) the face of the cage that each patch belongs to."""
+        return self._net.source
+
+    @property
+    def sharp(self) -> Ints:
+        """(e,2) the creases, by the vertices at their ends: those given, and those that turn by more than the angle."""
+        own = np.asarray(self.creases, dtype=np.intp)
+        angle = self.crease_angle_deg
+        return own if angle is None else np.concatenate([own, sharp_edges(self.cage, angle)])
 
     def jets(self, patch: ArrayLike, u: ArrayLike, v: ArrayLike, count: int = 3) -> Floats:
         """Points and derivatives.
@@ -1002,7 +1020,7 @@ class SubdivisionSurface:
         """(w,k) what numbers (n,k) at the vertices of the cage, subdivided like its coordinates, are at the places of
         the mesh with so many cells; NaN near those that are NaN."""
         used = np.unique(self.cage.corners)
-        net = _refined_cage(self.cage, self.scheme, self._sharp, values[used])
+        net = _refined_cage(self.cage, self.scheme, self.sharp, values[used])
         a, b, _, rim = _lattice(SCHEMES[self.scheme], cells)
         at_corners, at_edges = (net.vertex[net.corner], net.vertices), (net.edge, net.edges)
         whole = _numbers(at_corners, at_edges, net.forward, self._patches[2], cells, rim, len(a))
@@ -1042,6 +1060,11 @@ class LimitPlaces:
     patch: Ints
     parameters: Floats
     matrix: Floats
+
+    @property
+    def source(self) -> Ints:
+        """(t,) the face of the cage that each triangle belongs to."""
+        return self.surface.source[self.patch]
 
     def above(self, triangle: Ints, weights: Floats) -> tuple[Floats, Floats]:
         """(k,3) the points of the surface over those of triangles with barycentric coordinates (k,3), and the unit
