@@ -309,7 +309,7 @@ def smooth_contours(mesh: Mesh, sight: Sight, crease_angle_deg: float) -> Smooth
     points = vertices[met.low] + part * (vertices[met.high] - vertices[met.low])
     for _ in range(CONTOUR_ROUNDS):
         points = _contour_evened(points, met.pairs)
-    return _with_aside(smooth, normals, sight, facing, met, part, points, enclosed(mesh))
+    return _with_length(_with_aside(smooth, normals, sight, facing, met, part, points, enclosed(mesh)))
 
 
 def true_contours(
@@ -328,8 +328,9 @@ def true_contours(
     facing = _facing(vertices, normals, sight, TRUE_NORMAL_SINE)
     met, part = _edge_on(face_triangles(mesh).triangles, facing)
     if places is not None:
-        part, points = _on_limit(places, face_triangles(mesh).triangles, met, part, sight)
-        return _with_aside(mesh, normals, sight, facing, met, part, points, outward)
+        part, points, bends = _on_limit(places, face_triangles(mesh).triangles, met, part, sight)
+        found = _with_aside(mesh, normals, sight, facing, met, part, points, 1.0)
+        return _with_length(_cut_at_cusps(found, bends))
     low, high = vertices[met.low], vertices[met.high]
     way = high - low
     rises = (dot(way, normals[met.low])[:, None] * normals[met.low], dot(way, normals[met.high])[:, None])
@@ -338,14 +339,14 @@ def true_contours(
     points = rest**3 * low + 3.0 * rest**2 * part * first + 3.0 * rest * part**2 * last + part**3 * high
     sharp = np.bincount(met.pairs.ravel(), minlength=len(points)) < 2
     points[sharp] = (low + part * way)[sharp]
-    return _with_aside(mesh, normals, sight, facing, met, part, points, outward)
+    return _with_length(_with_aside(mesh, normals, sight, facing, met, part, points, outward))
 
 
 def _on_limit(
     places: LimitPlaces, triangles: Ints, met: LevelSegments, part: Floats, sight: Sight
-) -> tuple[Floats, Floats]:
-    """(k,1) the parts of the sides of triangles over which a limit surface is seen edge-on, near these, and (k,3) its
-    points there."""
+) -> tuple[Floats, Floats, Floats]:
+    """(k,1) the parts of the sides of triangles over which a limit surface is seen edge-on, near these, (k,3) its
+    points there, and (s,2) how it bends along the sight lines at both ends of the segments between them."""
     own = np.zeros(len(met.low), dtype=np.intp)
     own[met.pairs] = met.triangle[:, None]
     start, end = ((triangles[own] == ends[:, None]).astype(np.float64) for ends in (met.low, met.high))
@@ -362,7 +363,25 @@ def _on_limit(
     part[crossed, 0] = bracketed_zeros(
         lambda at, which: facing(at, crossed[which]), at_start[crossed], at_end[crossed], part[crossed, 0], small
     )[0]
-    return part, places.above(own, start + part * (end - start))[0]
+    weights = start + part * (end - start)
+    points = places.above(own, weights)[0]
+    return part, points, places.bends(own, weights, sight.ways(points)[0])[met.pairs]
+
+
+def _cut_at_cusps(contours: SmoothContours, bends: Floats) -> SmoothContours:
+    """Segments cut where a surface is straight along the sight line, and with them what leads aside, which is to the
+    side of normals: to the side from which the surface bends away. bends (s,2): at both ends of segments."""
+    bends = np.where(np.isfinite(bends), bends, 0.0)
+    one, two = bends.T
+    cusp = np.flatnonzero((one < 0.0) != (two < 0.0))
+    part = (one[cusp] / (one[cusp] - two[cusp]))[:, None]
+    middle = contours.start[cusp] + part * (contours.end[cusp] - contours.start[cusp])
+    start, end = np.concatenate([contours.start, middle]), np.concatenate([contours.end, contours.end[cusp]])
+    end[cusp] = middle
+    bend = np.concatenate([one + two, two[cusp]])
+    bend[cusp] = one[cusp]
+    aside = np.concatenate([contours.aside, contours.aside[cusp]])
+    return SmoothContours(start, end, np.where((bend < 0.0)[:, None], aside, -aside))
 
 
 def _facing(vertices: Floats, normals: Floats, sight: Sight, zero: float) -> Floats:
@@ -399,8 +418,13 @@ def _with_aside(
         outside = _outwards(vertices, triangles, facing, sight)[triangles[met.triangle]].sum(axis=1) >= 0.0
     else:
         outside = np.full(len(met.pairs), outward > 0.0)
-    kept = (start != end).any(axis=1)
-    return SmoothContours(start[kept], end[kept], np.where(outside[:, None], aside, -aside)[kept])
+    return SmoothContours(start, end, np.where(outside[:, None], aside, -aside))
+
+
+def _with_length(contours: SmoothContours) -> SmoothContours:
+    """Those segments that are longer than nothing."""
+    kept = (contours.start != contours.end).any(axis=1)
+    return SmoothContours(contours.start[kept], contours.end[kept], contours.aside[kept])
 
 
 def _contour_evened(points: Floats, pairs: Ints) -> Floats:

@@ -169,7 +169,7 @@ def _net(cage: Mesh, creases: Ints, values: Floats) -> _Net:
 
 def _edges_of(creases: Ints, used: Ints, keys: Ints, count: int) -> Ints:
     """(e,) the numbers of edges, of which these are the keys, by the vertices (e,2) at their ends."""
-    known = np.isin(creases, used).all(axis=1)
+    known = np.array(np.isin(creases, used).all(axis=1), dtype=np.bool_).reshape(-1)
     ends = np.sort(np.searchsorted(used, np.where(known[:, None], creases, 0)), axis=1)
     key = ends[:, 0] * count + ends[:, 1]
     known &= np.isin(key, keys)
@@ -795,7 +795,7 @@ def _distinct(index: Ints) -> tuple[Ints, Ints]:
 FEW = 16
 """So many patches tell which vertices may be the same in all of them."""
 
-BESIDE_BORDER = 2.0**-8
+BESIDE_BORDER = 2.0**-14
 """So far inside of a patch that has one corner on a border without an edge across it the tangents are those there."""
 
 
@@ -1069,12 +1069,27 @@ class LimitPlaces:
     def above(self, triangle: Ints, weights: Floats) -> tuple[Floats, Floats]:
         """(k,3) the points of the surface over those of triangles with barycentric coordinates (k,3), and the unit
         normals there, zero where there is none."""
+        points, by_u, by_v = self._jets(triangle, weights, 3)
+        return points + self.matrix[:3, 3], self._normals(by_u, by_v)
+
+    def bends(self, triangle: Ints, weights: Floats, ways: Floats) -> Floats:
+        """(k,) how strongly the surface bends towards its normal there, along the tangential parts of directions (k,3);
+        NaN where there is no tangent plane."""
+        _, by_u, by_v, uu, uv, vv = self._jets(triangle, weights, 6)
+        normals = self._normals(by_u, by_v)
+        e, f, g, p, q = dot(by_u, by_u), dot(by_u, by_v), dot(by_v, by_v), dot(ways, by_u), dot(ways, by_v)
+        with np.errstate(all="ignore"):
+            a, b = (g * p - f * q) / (e * g - f * f), (e * q - f * p) / (e * g - f * f)
+        return np.asarray(dot(normals, uu) * a * a + 2.0 * dot(normals, uv) * a * b + dot(normals, vv) * b * b)
+
+    def _jets(self, triangle: Ints, weights: Floats, count: int) -> list[Floats]:
+        """(k,3) each: points, less where the matrix moves them to, and derivatives."""
         at = (weights[:, :, None] * self.parameters[triangle]).sum(axis=1)
-        found = self.surface.jets(self.patch[triangle], at[:, 0], at[:, 1])
-        linear = self.matrix[:3, :3]
-        by_u, by_v = (matmul(found[:, k], linear.T) for k in (1, 2))
-        normals = cross(by_u, by_v) * np.where(determinant(linear) < 0.0, -1.0, 1.0)
-        return matmul(found[:, 0], linear.T) + self.matrix[:3, 3], _unit(normals)
+        found = self.surface.jets(self.patch[triangle], at[:, 0], at[:, 1], count)
+        return [matmul(found[:, k], self.matrix[:3, :3].T) for k in range(count)]
+
+    def _normals(self, by_u: Floats, by_v: Floats) -> Floats:
+        return _unit(cross(by_u, by_v) * np.where(determinant(self.matrix[:3, :3]) < 0.0, -1.0, 1.0))
 
     def transformed(self, matrix: ArrayLike) -> LimitPlaces:
         """The same under a 4x4 matrix acting on columns; a mirror lists the corners of triangles the other way round,
