@@ -16,14 +16,11 @@ from vectorplot.scene.item import Item, SurfaceNormals
 from vectorplot.scene.scales import Fields
 from vectorplot.scene.scene import Scene
 from vectorplot.surfaces.subdivision import LimitPlaces, SubdivisionSurface
+from vectorplot.tolerances import SAG_OF_LIMIT
 from vectorplot.words import DRAWN, LineKind
 
-SAG = 2.5e-4
-"""Most patches are divided until chords of the mesh are no further from the surface than this part of its size: a few
-hundredths of a mm on a page. Points of contours are exact whatever it is."""
-
 MOST_OF_ALL = 0.9
-"""Which part of the patches that is: some bend far more sharply than the others."""
+"""Which part of the patches is fine enough: some bend far more sharply than the others."""
 
 LIMIT_LINES = tuple(word for word in DRAWN if word != LineKind.TANGENT.word)
 """What is drawn of limit surfaces where nothing is said."""
@@ -87,8 +84,12 @@ def subdivided_item(
     ----------
     item : Item
         Its mesh is the cage; faces that are not present are not there.
-    scheme, creases, crease_angle_deg
-        See SubdivisionSurface.
+    scheme : {"catmull-clark", "loop"}
+        Catmull and Clark's scheme for polygons, Loop's for triangles.
+    creases : (e, 2) array_like of int
+        Edges that stay sharp, by the vertices at their ends, from 0.
+    crease_angle_deg : float, optional
+        Edges at which the cage turns by more stay sharp too.
 
     Returns
     -------
@@ -163,6 +164,10 @@ def _cells(surface: SubdivisionSurface) -> int:
     off, size = surface.deviations(), float(norm(np.ptp(surface.cage.bounds, axis=0)))
     worst = float(np.quantile(off, MOST_OF_ALL)) if len(off) else 0.0
     cells = 1
-    while worst > SAG * size * cells * cells and cells < MOST_CELLS and 8 * cells * cells * len(off) < MOST_TRIANGLES:
+    while (
+        worst > SAG_OF_LIMIT * size * cells * cells
+        and cells < MOST_CELLS
+        and 8 * cells * cells * len(off) < MOST_TRIANGLES
+    ):
         cells *= 2
     return cells

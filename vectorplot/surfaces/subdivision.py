@@ -23,7 +23,7 @@ from vectorplot.geometry.algebra import determinant, matmul
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.vectors import cross, dot, norm
 from vectorplot.geometry.weld import chained
-from vectorplot.tolerances import LEAST_DIVISOR, LIMIT_OF_LEVELS
+from vectorplot.tolerances import BESIDE_BORDER, LEAST_DIVISOR, LIMIT_OF_LEVELS
 from vectorplot.words import unknown
 
 SCHEMES = {"catmull-clark": 4, "loop": 3}
@@ -795,9 +795,6 @@ def _distinct(index: Ints) -> tuple[Ints, Ints]:
 FEW = 16
 """So many patches tell which vertices may be the same in all of them."""
 
-BESIDE_BORDER = 2.0**-14
-"""So far inside of a patch that has one corner on a border without an edge across it the tangents are those there."""
-
 
 def _is_irregular(ring: _Ring) -> bool:
     regular = (4 if len(ring.across) else 6) if ring.closed else (2 if len(ring.across) else 3)
@@ -878,8 +875,8 @@ class SubdivisionSurface:
     >>> ball = SubdivisionSurface(geometry.box((2, 2, 2)).moved(-1, -1, -1))
     >>> ball.patch_count
     24
-    >>> ball.points(np.array([0]), np.array([0.0]), np.array([0.0])).round(9).tolist()
-    [[-0.555555556, -0.555555556, -0.555555556]]
+    >>> ball.points([0], [0.0], [0.0]).round(9).tolist()
+    [[-0.5, -0.5, -0.5]]
     """
 
     cage: Mesh
