@@ -47,6 +47,7 @@ from .scene.material import Material
 from .scene.page import Page
 from .scene.plots import graph, surface, tube
 from .scene.scene import Scene
+from .scene.subdivided import subdivided
 from .scene.surface_lines import Section, SurfaceLines
 from .scene.united import united
 from .shading.image import Image
@@ -120,6 +121,7 @@ __all__ = [
     "save_for_latex",
     "save_frames",
     "show",
+    "subdivided",
     "surface",
     "technical_sheet",
     "thread",

@@ -168,6 +168,18 @@ NEARLY_MET = 1e-7
 SETTLED_ON_SHEET = 1e-12
 """A point no farther from its foot on a sheet needs no further step: a thousandth of what counts as zero."""
 
+LIMIT_OF_LEVELS = 2.0**-27
+"""Patches around an irregular vertex of a subdivision surface are told apart until its edges are no longer than this
+part of those of the cage: what is nearer is at the vertex, to the square of this by rounding."""
+
+BESIDE_BORDER = 2.0**-14
+"""So far inside of a patch with a corner on a smooth border, and no edge across that, the tangents at the corner are
+taken: along both of its edges they are one."""
+
+SAG_OF_LIMIT = 2.5e-4
+"""Nine in ten patches of a subdivision surface are divided until chords are no further from it than this part of its
+size: a few hundredths of a mm on a page. Points of contours are exact whatever it is."""
+
 CROSSING_RESIDUAL = 1e-11
 """How far the images of a crossing of two curves may be apart."""
 

@@ -215,6 +215,9 @@ _DEFAULT = tuple(word for word in ON_THINGS if word not in [kind.word for kind i
 DRAWN = tuple(word for word in _DEFAULT if word != LineKind.EDGES.word)
 """The kinds of lines that are drawn where nothing else is said."""
 
+SUBDIVISIONS = ("catmull-clark", "loop")
+"""The schemes of subdivision."""
+
 WIRES = tuple(word for word in _DEFAULT if word != LineKind.INTERSECTION.word)
 """Those of a wireframe: every edge, and no line in which things pierce each other."""
 

@@ -311,6 +311,21 @@ class ItemMaterial:
             raise click.BadParameter(error.cause) from None
 
 
+def read_subdivision(text: str) -> tuple[str, float | None]:
+    """SCHEME[,DEG]: the scheme, and the angle of creases."""
+    from vectorplot.words import SUBDIVISIONS, nearest
+
+    word, comma, angle = text.partition(",")
+    if word not in SUBDIVISIONS:
+        near = nearest(word.lower(), SUBDIVISIONS)
+        meant = f"; did you mean {near}?" if near else ""
+        raise click.BadParameter(f"{word!r} is none of {', '.join(SUBDIVISIONS)}{meant}")
+    found = number(angle) if comma else None
+    if found is not None and not 0.0 <= found <= 180.0:
+        raise click.BadParameter(f"a crease angle of {found:g} degrees, expected 0 to 180")
+    return word, found
+
+
 LINE_OPTIONS = (
     click.option(
         "--sections",
@@ -341,6 +356,12 @@ LINE_OPTIONS = (
         "--smooth-contours",
         is_flag=True,
         help="Contours of meshes run across faces, as those of the smooth shapes they stand for.",
+    ),
+    click.option(
+        "--subdivision",
+        type=read_subdivision,
+        metavar="SCHEME[,DEG]",
+        help="Limit surfaces of meshes by catmull-clark or loop; edges that turn by more than DEG stay sharp.",
     ),
     click.option(
         "--colour-by",
@@ -389,6 +410,7 @@ class LineOptions:
     isophotes: int | None = None
     detail: float = 1.0
     smooth_contours: bool = False
+    subdivision: tuple[str, float | None] | None = None
     colour_by: str | None = None
     colour_map: str | None = None
     colour_steps: int | None = None
@@ -413,6 +435,10 @@ class LineOptions:
         """A scene with these lines, colours and box, and the kinds of the lines."""
         from vectorplot.scene.added_lines import line_kinds, with_lines, without_level_lines
 
+        if self.subdivision is not None:
+            from vectorplot.scene.subdivided import subdivided
+
+            scene = subdivided(scene, self.subdivision[0], crease_angle_deg=self.subdivision[1])
         charted, added = self.with_chart(scene), self.of_scene(scene)
         if self.levels is not None:
             charted = without_level_lines(charted, self.levels.normal)

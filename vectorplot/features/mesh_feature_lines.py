@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -31,14 +32,25 @@ from vectorplot.features.mesh_lines import (
     joined_segments,
     level_segments,
 )
+from vectorplot.features.scalar_fields import bracketed_zeros
 from vectorplot.geometry.algebra import linear_solution
 from vectorplot.geometry.budget import in_turn, slices
 from vectorplot.geometry.connectivity import concat
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.vectors import cross, dot, norm
 from vectorplot.surfaces.surface import ImplicitSurface
-from vectorplot.tolerances import LEAST_DIVISOR, ROUNDING_OF_POINTS, ROUNDING_OF_TERMS, SETTLED_FIT, TRUE_NORMAL_SINE
+from vectorplot.tolerances import (
+    LEAST_DIVISOR,
+    ROUNDING,
+    ROUNDING_OF_POINTS,
+    ROUNDING_OF_TERMS,
+    SETTLED_FIT,
+    TRUE_NORMAL_SINE,
+)
 from vectorplot.words import LineKind
+
+if TYPE_CHECKING:
+    from vectorplot.surfaces.subdivision import LimitPlaces
 
 # How a mesh of a smooth shape bends at its vertices: fitted to the normals around each.
 
@@ -297,21 +309,28 @@ def smooth_contours(mesh: Mesh, sight: Sight, crease_angle_deg: float) -> Smooth
     points = vertices[met.low] + part * (vertices[met.high] - vertices[met.low])
     for _ in range(CONTOUR_ROUNDS):
         points = _contour_evened(points, met.pairs)
-    return _with_aside(smooth, normals, sight, facing, met, part, points, enclosed(mesh))
+    return _with_length(_with_aside(smooth, normals, sight, facing, met, part, points, enclosed(mesh)))
 
 
-def true_contours(mesh: Mesh, normals: Floats, sight: Sight, outward: float | None) -> SmoothContours:
+def true_contours(
+    mesh: Mesh, normals: Floats, sight: Sight, outward: float | None, places: LimitPlaces | None = None
+) -> SmoothContours:
     """Where the true normals (v,3) of a surface at the vertices of a mesh of it, taken apart along its sharp edges, are
     at right angles to the view: on the cubics that leave the ends of the sides of faces at right angles to the normals
     there, and on sharp edges themselves.
 
-    outward: as of enclosed, of the mesh before it was taken apart.
+    outward: as of enclosed, of the mesh before it was taken apart; places: where its triangles lie on a limit surface,
+    on which points are then exact.
     Edge cases: where there is no normal, at the tip of a cone, contours end.
     Source: Vlachos, Peters, Boyd, Mitchell (2001), Curved PN triangles, section 3.1.
     """
     vertices = mesh.vertices
     facing = _facing(vertices, normals, sight, TRUE_NORMAL_SINE)
     met, part = _edge_on(face_triangles(mesh).triangles, facing)
+    if places is not None:
+        part, points, bends = _on_limit(places, face_triangles(mesh).triangles, met, part, sight)
+        found = _with_aside(mesh, normals, sight, facing, met, part, points, 1.0)
+        return _with_length(_cut_at_cusps(found, bends))
     low, high = vertices[met.low], vertices[met.high]
     way = high - low
     rises = (dot(way, normals[met.low])[:, None] * normals[met.low], dot(way, normals[met.high])[:, None])
@@ -320,7 +339,49 @@ def true_contours(mesh: Mesh, normals: Floats, sight: Sight, outward: float | No
     points = rest**3 * low + 3.0 * rest**2 * part * first + 3.0 * rest * part**2 * last + part**3 * high
     sharp = np.bincount(met.pairs.ravel(), minlength=len(points)) < 2
     points[sharp] = (low + part * way)[sharp]
-    return _with_aside(mesh, normals, sight, facing, met, part, points, outward)
+    return _with_length(_with_aside(mesh, normals, sight, facing, met, part, points, outward))
+
+
+def _on_limit(
+    places: LimitPlaces, triangles: Ints, met: LevelSegments, part: Floats, sight: Sight
+) -> tuple[Floats, Floats, Floats]:
+    """(k,1) the parts of the sides of triangles over which a limit surface is seen edge-on, near these, (k,3) its
+    points there, and (s,2) how it bends along the sight lines at both ends of the segments between them."""
+    own = np.zeros(len(met.low), dtype=np.intp)
+    own[met.pairs] = met.triangle[:, None]
+    start, end = ((triangles[own] == ends[:, None]).astype(np.float64) for ends in (met.low, met.high))
+
+    def facing(at: Floats, which: Ints) -> Floats:
+        points, normals = places.above(own[which], start[which] + at[:, None] * (end - start)[which])
+        return np.asarray(dot(sight.ways(points)[0], normals))
+
+    every = np.arange(len(own))
+    at_start, at_end = facing(np.zeros(len(own)), every), facing(np.ones(len(own)), every)
+    crossed = np.flatnonzero((at_start < 0.0) != (at_end < 0.0))
+    small = np.full(len(crossed), ROUNDING)
+    part = part.copy()
+    part[crossed, 0] = bracketed_zeros(
+        lambda at, which: facing(at, crossed[which]), at_start[crossed], at_end[crossed], part[crossed, 0], small
+    )[0]
+    weights = start + part * (end - start)
+    points = places.above(own, weights)[0]
+    return part, points, places.bends(own, weights, sight.ways(points)[0])[met.pairs]
+
+
+def _cut_at_cusps(contours: SmoothContours, bends: Floats) -> SmoothContours:
+    """Segments cut where a surface is straight along the sight line, and with them what leads aside, which is to the
+    side of normals: to the side from which the surface bends away. bends (s,2): at both ends of segments."""
+    bends = np.where(np.isfinite(bends), bends, 0.0)
+    one, two = bends.T
+    cusp = np.flatnonzero((one < 0.0) != (two < 0.0))
+    part = (one[cusp] / (one[cusp] - two[cusp]))[:, None]
+    middle = contours.start[cusp] + part * (contours.end[cusp] - contours.start[cusp])
+    start, end = np.concatenate([contours.start, middle]), np.concatenate([contours.end, contours.end[cusp]])
+    end[cusp] = middle
+    bend = np.concatenate([one + two, two[cusp]])
+    bend[cusp] = one[cusp]
+    aside = np.concatenate([contours.aside, contours.aside[cusp]])
+    return SmoothContours(start, end, np.where((bend < 0.0)[:, None], aside, -aside))
 
 
 def _facing(vertices: Floats, normals: Floats, sight: Sight, zero: float) -> Floats:
@@ -357,8 +418,13 @@ def _with_aside(
         outside = _outwards(vertices, triangles, facing, sight)[triangles[met.triangle]].sum(axis=1) >= 0.0
     else:
         outside = np.full(len(met.pairs), outward > 0.0)
-    kept = (start != end).any(axis=1)
-    return SmoothContours(start[kept], end[kept], np.where(outside[:, None], aside, -aside)[kept])
+    return SmoothContours(start, end, np.where(outside[:, None], aside, -aside))
+
+
+def _with_length(contours: SmoothContours) -> SmoothContours:
+    """Those segments that are longer than nothing."""
+    kept = (contours.start != contours.end).any(axis=1)
+    return SmoothContours(contours.start[kept], contours.end[kept], contours.aside[kept])
 
 
 def _contour_evened(points: Floats, pairs: Ints) -> Floats:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable
+from dataclasses import replace
 from typing import NoReturn
 
 import numpy as np
@@ -15,6 +16,7 @@ from vectorplot.io.scene_item import (
     CAP_WORDS,
     Draft,
     Placement,
+    Subdivision,
     material_of,
     moved,
     read_hatch,
@@ -62,6 +64,7 @@ from vectorplot.words import (
     MATERIALS,
     OWN_LINE_WORDS,
     PALETTES,
+    SUBDIVISIONS,
     is_alike,
     is_colour,
     nearest,
@@ -348,6 +351,26 @@ def _read_hatch(reader: ItemCursor, draft: Draft) -> None:
     draft.hatch, reader.at = read_hatch(reader.source, reader.at, draft.owner)
 
 
+def _read_subdivision(reader: ItemCursor, draft: Draft) -> None:
+    """A scheme, the angle of creases, and creases by the numbers of the vertices at their ends."""
+    reader.once(draft, "subdivision")
+    source = reader.source
+    scheme, found = reader.words[reader.at], Subdivision()
+    if scheme not in SUBDIVISIONS:
+        reader.fail(f"subdivision: expected {' or '.join(SUBDIVISIONS)}, got {source.shown(reader.at)}", draft)
+    reader.at += 1
+    while (word := reader.words[reader.at]) in ("crease_angle", "creases") and source.is_number(reader.at + 1):
+        if word == "crease_angle":
+            found = replace(found, crease_angle_deg=source.number(reader.at + 1, draft.owner, word))
+            reader.at += 2
+            continue
+        pairs, reader.at = source.groups(reader.at + 1, draft.owner, "a vertex of a crease")
+        if any(len(pair) != 2 for pair in pairs):
+            reader.fail("creases: expected two vertices each, with commas between creases", draft)
+        found = replace(found, creases=tuple((one - 1, two - 1) for one, two in pairs))
+    draft.subdivision = replace(found, scheme=scheme)
+
+
 LOOK_WORDS: dict[str, Callable[[ItemCursor, Draft], None]] = {
     **dict.fromkeys(COLOURS, _read_colour),
     **dict.fromkeys(MATERIALS, _read_material),
@@ -362,6 +385,7 @@ LOOK_WORDS: dict[str, Callable[[ItemCursor, Draft], None]] = {
     "occludes": _read_occludes,
     "group": _read_group,
     "hatch": _read_hatch,
+    "subdivision": _read_subdivision,
 }
 """What reads words about the look of an item."""
 

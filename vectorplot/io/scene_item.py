@@ -6,7 +6,7 @@ import math
 import warnings
 from collections.abc import Callable, Collection, Mapping, Sequence
 from copy import copy
-from dataclasses import fields
+from dataclasses import dataclass, fields
 from types import MappingProxyType
 from typing import Any
 
@@ -155,6 +155,15 @@ NEEDED = {
 """What every kind of item cannot be without."""
 
 
+@dataclass(frozen=True)
+class Subdivision:
+    """Of a polyhedron, as `subdivided_item` takes it; creases: by the vertices at their ends, from 0."""
+
+    scheme: str = "catmull-clark"
+    creases: tuple[tuple[int, int], ...] = ()
+    crease_angle_deg: float | None = None
+
+
 class Draft:
     """What has been read about an item so far. Attributes of the class are what holds where the file is silent.
 
@@ -189,6 +198,7 @@ class Draft:
     occludes: bool | None = None
     group: str | None = None
     hatch: Hatching | None = None
+    subdivision: Subdivision | None = None
     mesh: Mesh | None = None
     fields: Fields | None = None
     mesh_looks: FaceLooks | None = None
@@ -258,7 +268,7 @@ def finished(draft: Draft, words: Words, parts: Sequence[Mesh]) -> Item:
             raise
         words.fail(draft.kind_index, draft.owner + error.cause)
     drawn, added = _listed_edges(draft, shape)
-    return Item(
+    item = Item(
         draft.name,
         shape,
         "gray" if draft.colour is None else draft.colour,
@@ -275,6 +285,17 @@ def finished(draft: Draft, words: Words, parts: Sequence[Mesh]) -> Item:
         added_edges=added,
         face_looks=looks,
     )
+    return item if draft.subdivision is None else _subdivided(item, draft, draft.subdivision, words)
+
+
+def _subdivided(item: Item, draft: Draft, how: Subdivision, words: Words) -> Item:
+    # Few items are cages: what subdivides them is loaded for them.
+    from vectorplot.scene.subdivided import subdivided_item
+
+    try:
+        return subdivided_item(item, how.scheme, creases=how.creases, crease_angle_deg=how.crease_angle_deg)
+    except InputError as error:
+        words.fail(draft.kind_index, error.cause)
 
 
 def _face_looks(draft: Draft, shape: Mesh) -> FaceLooks | None:

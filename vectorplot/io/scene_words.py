@@ -54,6 +54,7 @@ ITEM_WORDS = (
         "smooth_contours",
         "isophote_edges",
         "detail",
+        "subdivision",
     ),
     *("hatch", "mesh", "grid", "ring"),
     *INTEGRAL_WORDS,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Sequence
 from json import dumps
 from math import degrees, pi, radians
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -60,6 +60,9 @@ from vectorplot.surfaces.swept import Rotoid, Screw, SpiralMotion, Swept, Transl
 from vectorplot.surfaces.tori import ImplicitCyclide, ImplicitTorus, Torus
 from vectorplot.surfaces.trimmed import TrimmedSurface
 from vectorplot.words import COLOURS
+
+if TYPE_CHECKING:
+    from vectorplot.surfaces.subdivision import LimitPlaces
 
 # Smooth surfaces and curves as words of the scene language.
 
@@ -534,7 +537,7 @@ def _colour_words(colour: str) -> str:
 
 def _edges(item: Item) -> str:
     """The list of the edges to be drawn; parts of edges that a cut left are none of the language."""
-    if item.drawn_edges is None or not isinstance(item.shape, Mesh):
+    if item.drawn_edges is None or not isinstance(item.shape, Mesh) or _limit(item) is not None:
         return ""
     number = {tuple(vertex): k + 1 for k, vertex in enumerate(item.shape.vertices.tolist())}
     listed = [*item.drawn_edges.tolist(), *([] if item.added_edges is None else item.added_edges.tolist())]
@@ -546,12 +549,16 @@ def _face_looks(item: Item) -> str:
     """The looks of single faces."""
     if item.face_looks is None or not isinstance(item.shape, Mesh):
         return ""
-    own, rows = item.face_looks.at(item.shape), []
+    own, rows, places = item.face_looks.at(item.shape), [], _limit(item)
+    if places is not None:
+        faces = np.full(places.surface.cage.face_count, -1)
+        faces[places.source] = own
+        own = faces
     for number, look in enumerate(item.face_looks.looks):
-        faces = " ".join(str(face + 1) for face in np.flatnonzero(own == number).tolist())
+        numbers = " ".join(str(face + 1) for face in np.flatnonzero(own == number).tolist())
         words = [] if look.colour is None else [_colour_words(look.colour)]
         words += [] if look.material is None else _material(look.material)
-        rows += [f"{faces} {' '.join(words)}"] if faces and words else []
+        rows += [f"{numbers} {' '.join(words)}"] if numbers and words else []
     return "\nface_looks " + " ,\n  ".join(rows) if rows else ""
 
 
@@ -566,7 +573,8 @@ def _shape(item: Item, lights: tuple[Light, ...]) -> str:
         if isinstance(shape, Mesh):
             if item.curves.columns or item.curves.rows or item.curves.paths:
                 raise InputError("parameter lines and curves u(t), v(t) are for surfaces only")
-            return _mesh(shape) + lines_text(item.curves, lights)
+            places = _limit(item)
+            return (_mesh(shape) if places is None else _cage(places)) + lines_text(item.curves, lights)
         if is_parametrised(shape) or is_implicit(shape):
             return f"\nsurface {surface_text(shape)}{lines_text(item.curves, lights)}"
         if is_curve(shape):
@@ -574,6 +582,22 @@ def _shape(item: Item, lights: tuple[Light, ...]) -> str:
         raise InputError(f"the scene language has no word for a {type(shape).__name__}")
     except InputError as error:
         raise InputError(f"{item.name}: {error.cause}") from None
+
+
+def _limit(item: Item) -> LimitPlaces | None:
+    """Where the triangles of an item lie on a limit surface, if it is all there is of it."""
+    normals = item.normals
+    if normals is None or normals.places is None or not normals.has_faces_of(item.mesh):
+        return None
+    return normals.places
+
+
+def _cage(places: LimitPlaces) -> str:
+    """The cage of a limit surface, and how it is subdivided."""
+    surface = places.surface
+    sharp = " , ".join(f"{one + 1} {two + 1}" for one, two in surface.sharp.tolist())
+    words = f"{_mesh(surface.cage.transformed(places.matrix))}\nsubdivision {surface.scheme}"
+    return f"{words} creases {sharp}" if sharp else words
 
 
 def _material(material: Material) -> list[str]:

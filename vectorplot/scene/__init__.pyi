@@ -6,6 +6,7 @@ from .item import SurfaceNormals
 from .page import SheetSettings
 from .pens import DepthCue, PenOverrides
 from .scales import BoxAxes, Colouring, Fields, ScaleBar
+from .subdivided import subdivided_item
 from .surface_lines import (
     FieldContours,
     FieldLines,
@@ -54,6 +55,7 @@ __all__ = [
     "look",
     "round_heights",
     "round_sections",
+    "subdivided_item",
     "terrain_mesh",
     "terrain_scene",
     "tinted",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -25,6 +26,9 @@ from vectorplot.surfaces.placed_surface import placed_shape
 from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_parametrised
 from vectorplot.words import OWN_LINE_WORDS, check_colour, line_words
 
+if TYPE_CHECKING:
+    from vectorplot.surfaces.subdivision import LimitPlaces
+
 # The normals of the smooth surface that a mesh was made of.
 
 
@@ -40,6 +44,8 @@ class SurfaceNormals:
         Unit normals; zero where the surface has none.
     on_edge : (v,) array of bool
         Those on sharp edges, with the normal of one side of them.
+    places : LimitPlaces, optional
+        Where its triangles lie on a limit surface of subdivision, which tells of all that is between vertices.
 
     Notes
     -----
@@ -59,6 +65,7 @@ class SurfaceNormals:
     mesh: Mesh
     at_vertices: Floats
     on_edge: Bools
+    places: LimitPlaces | None = None
 
     def transformed(self, matrix: ArrayLike) -> SurfaceNormals:
         """The normals of the surface under a 4x4 matrix acting on columns."""
@@ -66,7 +73,9 @@ class SurfaceNormals:
         # The adjugate turns normals as the inverse does, and mirrors them as faces are.
         turned = matmul(self.at_vertices, inverse_matrix(linear) * abs(determinant(linear)))
         length = norm(turned)[:, None]
-        return SurfaceNormals(self.mesh.transformed(matrix), turned / np.where(length > 0.0, length, 1.0), self.on_edge)
+        turned /= np.where(length > 0.0, length, 1.0)
+        places = None if self.places is None else self.places.transformed(matrix)
+        return SurfaceNormals(self.mesh.transformed(matrix), turned, self.on_edge, places)
 
     def has_faces_of(self, mesh: Mesh) -> bool:
         """Whether the faces are those of a mesh of triangles, one by one; along sharp edges they may be taken apart, so

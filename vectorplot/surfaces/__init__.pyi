@@ -20,6 +20,7 @@ from .quadrics import (
 )
 from .splines import SplineSurface, landscape, nurbs_surface, spline_surface
 from .stacked import unit_normals
+from .subdivision import SubdivisionSurface
 from .surface import Domain
 from .swept import helical_surface, revolution_surface, rotoidal_surface, spiral_surface, translation_surface
 from .terrains import Terrain, densified_terrain, exaggerated, terrain, terrain_of_points, thinned_terrain
@@ -45,6 +46,7 @@ __all__ = [
     "Quadric",
     "Sphere",
     "SplineSurface",
+    "SubdivisionSurface",
     "Terrain",
     "Torus",
     "TrimmedSurface",

@@ -174,7 +174,7 @@ def smooth_contour_lines(item: Item, view: View, crease_angle_deg: float) -> Smo
     if true is None:
         found = smooth_contours(item.mesh, sight, crease_angle_deg)
     else:
-        found = true_contours(true.mesh, true.at_vertices, sight, enclosed(item.mesh))
+        found = true_contours(true.mesh, true.at_vertices, sight, enclosed(item.mesh), true.places)
         parts = segments_outside(found.start, found.end, item.cut_by)
         found = SmoothContours(parts[0], parts[1], found.aside[parts[2]])
     start, end = view.points_of(found.start), view.points_of(found.end)
