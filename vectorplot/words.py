@@ -154,6 +154,8 @@ class LineKind(IntEnum):
     """A closed path around all that things cover of the page together, or around a hole in it."""
     TANGENT = 23
     """An edge at which two faces of a part from a CAD system meet without a crease."""
+    REFLECTED = 24
+    """A line that one sees in a mirror."""
 
     @property
     def word(self) -> str:
@@ -192,7 +194,10 @@ class LineKind(IntEnum):
 
 _OWN_ONLY = (LineKind.LABEL, LineKind.CENTRE, LineKind.GHOST, LineKind.TRACE)
 
-LINE_WORDS = tuple(kind.word for kind in LineKind if kind not in (LineKind.HATCH, *_OWN_ONLY))
+_BY_WAY = (LineKind.REFLECTED,)
+"""Lines of other kinds, as they are seen by way of things."""
+
+LINE_WORDS = tuple(kind.word for kind in LineKind if kind not in (LineKind.HATCH, *_BY_WAY, *_OWN_ONLY))
 """The kinds of lines that one can ask for, as they are spelled."""
 
 

@@ -39,6 +39,7 @@ PENS = {
     "trace": Pen(0.13, BLACK),
     "outline": Pen(0.5, BLACK),
     "tangent": Pen(0.13, BLACK),
+    "reflected": Pen(0.18, BLACK),
 }
 """The pens of layers by kind, as a draughtsman would choose them."""
 
@@ -67,6 +68,7 @@ KIND_LAYER = {
     LineKind.TRACE: "trace",
     LineKind.OUTLINE: "outline",
     LineKind.TANGENT: "tangent",
+    LineKind.REFLECTED: "reflected",
 }
 
 COLOURS = {

@@ -97,6 +97,7 @@ def draw(
     depth_cue: DepthCue | str | None = None,
     background: str | None = None,
     halo_mm: float = 0.0,
+    reflections: int = 1,
     hatch: Hatching | Stippling | None = None,
     layers: str | None = None,
     unplotted: str | Iterable[str] = "",
@@ -160,6 +161,10 @@ def draw(
         The colour of the paper, drawn on a layer that is not plotted; as the style says where None.
     halo_mm : float
         Lines end so many mm beside what is in front of them.
+    reflections : int
+        How often lines are followed from plane mirror to plane mirror, 0 to 8: with 0 mirrors are plain faces, with 1
+        they show what stands before them, with 2 mirrors that they show do so too. Such lines have the kind
+        `reflected`.
     hatch : Hatching or Stippling, optional
         How visible faces are hatched, or stippled, where their items do not say it themselves; not at all where None.
     layers : str, optional
@@ -283,7 +288,7 @@ def draw(
         scale_pens=scale_pens,
         shortest_mm=shortest_mm,
     )
-    planned = plan_draw(seen, kinds, hidden, halo_mm, finish.look)
+    planned = plan_draw(seen, kinds, hidden, halo_mm, finish.look, reflections)
     planned = plan_hatching(seen, hatch, planned) if finish.plain else planned
     planned = plan_arcs(planned) if curves == "arcs" else planned
     smooth = curves != "polyline" and any(not isinstance(item.shape, Mesh) for item in seen.items)
@@ -291,7 +296,7 @@ def draw(
     view = pipeline.run("look", look, seen, prepared.camera)
     faces = pipeline.run("faces", project_faces, view)
     shapes = traceable(pipeline, seen, view, faces, kinds, crease_angle_deg, allowed)
-    placed = placed_lines(shapes, sheet, fit, tolerance_mm, allowed)
+    placed = placed_lines(shapes, sheet, fit, tolerance_mm, allowed, reflections, hidden)
     placement = prepared.around(placed.placement, view, sheet)
     strokes = replace(placed, placement=placement).with_halo(halo_mm).strokes()
     for stage in ("visible lines", "counted lines"):

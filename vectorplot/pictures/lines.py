@@ -611,7 +611,8 @@ def straight_lines(
 @dataclass(frozen=True, eq=False)
 class LineSources:
     """A scene in a view, for lines of some kinds: the faces of its polyhedra, which of its items are solid (i,), its
-    balls, if it has any, its other smooth surfaces; and the lines of its polyhedra, which no tolerance changes."""
+    balls, if it has any, its other smooth surfaces; and the lines of its polyhedra, which no tolerance changes, but the
+    angle of creases."""
 
     pipeline: Pipeline
     scene: Scene
@@ -622,6 +623,7 @@ class LineSources:
     straight: Lines
     balls: ClosedForms | None
     sheets: tuple[SmoothSheet, ...]
+    crease_angle_deg: float
 
     @property
     def reached(self) -> Floats:
@@ -637,12 +639,37 @@ class LineSources:
     def framed(self, lines: Lines, place: Placement | None) -> Lines:
         """What of lines is before the eye and, where the picture has its place, inside of it; cut where balls begin to
         hide them."""
-        inside = self.pipeline.run("frame", in_frame, self.view, lines, place)
-        return behind_balls(self.pipeline, self.view, self.balls, inside)
+        return self.before_balls(self.pipeline.run("frame", in_frame, self.view, lines, place))
+
+    def before_balls(self, lines: Lines) -> Lines:
+        """Lines cut where balls begin to hide them."""
+        return behind_balls(self.pipeline, self.view, self.balls, lines)
 
     def seen(self, lines: Lines) -> Visibility:
         """Which parts of framed lines are seen."""
         return seen_parts(self.pipeline, self.view, self.faces, self.solid, lines)
+
+    def with_reflections(
+        self,
+        lines: Lines,
+        seen: Visibility,
+        place: Placement | None,
+        reflections: int,
+        hidden: str,
+        tolerance: float,
+        budget: Budget,
+    ) -> tuple[Lines, Visibility]:
+        """Framed lines with what is seen of them, and with those that mirrors show, where the plan has these.
+
+        reflections: from mirror to mirror, so many; hidden: see draw.
+        """
+        if not self.pipeline.calls_for("reflected lines"):
+            return lines, seen
+        from vectorplot.pictures.reflected_lines import Depth, with_reflections
+
+        window = None if place is None else place.window
+        how = Depth(reflections, budget.mirrors, hidden, self.crease_angle_deg, tolerance, budget)
+        return self.pipeline.run("reflected lines", with_reflections, self, lines, seen, window, how)
 
 
 def traceable(
@@ -659,7 +686,7 @@ def traceable(
     straight = straight_lines(pipeline, scene, view, faces, solid, kinds, crease_angle_deg, budget)
     round_bodies = balls(pipeline, scene, view, kinds)
     sheets = smooth_sheets(pipeline, scene, view, round_bodies)
-    return LineSources(pipeline, scene, view, kinds, faces, solid, straight, round_bodies, sheets)
+    return LineSources(pipeline, scene, view, kinds, faces, solid, straight, round_bodies, sheets, crease_angle_deg)
 
 
 # The lines of a scene where its picture has found its place on the page.
@@ -693,8 +720,17 @@ class PlacedLines:
         return shapes.pipeline.run("strokes", strokes_on_page, shapes.view, self.lines, self.seen, self.placement)
 
 
-def placed_lines(shapes: LineSources, sheet: Page, fit: bool, tolerance_mm: float, budget: Budget) -> PlacedLines:
-    """The lines of a scene, and their place on a sheet that they fill; without fit that of the field of vision."""
+def placed_lines(
+    shapes: LineSources,
+    sheet: Page,
+    fit: bool,
+    tolerance_mm: float,
+    budget: Budget,
+    reflections: int = 0,
+    hidden: str = "none",
+) -> PlacedLines:
+    """The lines of a scene, and their place on a sheet that they fill; without fit that of the field of vision.
+    reflections, hidden: see draw."""
     pipeline, view, reached = shapes.pipeline, shapes.view, shapes.reached
     scale = mm_per_image(view, reached, sheet, fit)
     while True:
@@ -704,6 +740,7 @@ def placed_lines(shapes: LineSources, sheet: Page, fit: bool, tolerance_mm: floa
         bounded = frame_of(view, every, sheet, fit)
         framed = shapes.framed(every, bounded)
         seen = shapes.seen(framed)
+        framed, seen = shapes.with_reflections(framed, seen, bounded, reflections, hidden, tolerance, budget)
         ends = _ends_to_fit(shapes, framed, seen, tolerance, budget)
         placement = bounded or fitted_picture(view, sheet, view.image_of(ends))
         if bounded is None and not ends.shape[1] and pipeline.calls_for("hatching"):
@@ -855,6 +892,7 @@ def lines_in_place(
     crease_angle_deg: float,
     tolerance_mm: float,
     budget: float,
+    reflections: int = 0,
     progress: Callable[[float], None] | None = None,
 ) -> Paths:
     """The visible parts of the lines of a scene, as they come, where a picture of it already has its place on the page.
@@ -863,14 +901,17 @@ def lines_in_place(
     draw.
     """
     told = None if progress is None else lambda stage, fraction: progress(fraction)
-    pipeline = Pipeline(plan_draw(scene, kinds, "none", 0.0), None, told)
-    allowed = budget_of(budget)
+    pipeline = Pipeline(plan_draw(scene, kinds, "none", 0.0, reflections=reflections), None, told)
+    allowed, tolerance = budget_of(budget), 0.5 * tolerance_mm / placement.scale
     shapes = traceable(pipeline, scene, view, faces, kinds, crease_angle_deg, allowed)
-    every = shapes.lines(0.5 * tolerance_mm / placement.scale, allowed)
+    every = shapes.lines(tolerance, allowed)
     # Lines may reach too far where what the picture was fitted to does not.
     cut = not placement.whole or view.reaches_too_far(every.start, every.end)
-    framed = shapes.framed(every, placement if cut else None)
-    strokes = PlacedLines(shapes, framed, shapes.seen(framed), placement).strokes()
+    place = placement if cut else None
+    framed = shapes.framed(every, place)
+    seen = shapes.seen(framed)
+    framed, seen = shapes.with_reflections(framed, seen, place, reflections, "none", tolerance, allowed)
+    strokes = PlacedLines(shapes, framed, seen, placement).strokes()
     return with_outline(strokes, shapes, placement, tolerance_mm, allowed)
 
 
@@ -897,6 +938,7 @@ class LineOverlay:
     tolerance_mm: float
     budget: float
     shortest: float | None = None
+    reflections: int = 0
 
     def found(self, kinds: frozenset[LineKind], progress: Callable[[float], None]) -> Paths:
         """The visible lines, as they come; of no kinds those of annotations."""
@@ -951,6 +993,7 @@ class LineOverlay:
             crease_angle_deg=self.crease_angle_deg,
             tolerance_mm=self.tolerance_mm,
             budget=self.budget,
+            reflections=self.reflections,
             progress=progress,
         )
 

@@ -74,7 +74,12 @@ def plan_cuts(scene: Scene, camera: Camera) -> tuple[Stage, ...]:
 
 
 def plan_draw(
-    scene: Scene, kinds: frozenset[LineKind], hidden: str, halo_mm: float, style: str = "plain"
+    scene: Scene,
+    kinds: frozenset[LineKind],
+    hidden: str,
+    halo_mm: float,
+    style: str = "plain",
+    reflections: int = 0,
 ) -> tuple[Stage, ...]:
     """The stages that drawing this scene calls for, in their order; nothing else runs."""
     wanted = kinds.union(*(map(LineKind.from_word, item.lines) for item in scene.items if item.lines is not None))
@@ -118,6 +123,9 @@ def plan_draw(
         stages.append(Stage("visible lines", "hidden lines are left out"))
     else:
         stages.append(Stage("counted lines", f"hidden lines are drawn {hidden}"))
+    if reflections and style == "plain" and has_plane_mirrors(scene):
+        times = f", and what these show in them, {reflections} deep" if reflections > 1 else ""
+        stages.append(Stage("reflected lines", f"items are mirrors: what one sees in them{times} (--reflections)"))
     if halo_mm > 0.0:
         stages.append(Stage("halo", f"lines end {halo_mm:g} mm beside what is in front of them"))
     stages.append(Stage("strokes", "lines on the page, those that lie on each other once"))
@@ -247,7 +255,7 @@ def _shading_stages(scene: Scene, shadows: str) -> list[Stage]:
     clear = any(item.material.opacity < 1.0 for item in scene.items)
     if casts:
         stages.append(Stage("shadows", f"{len(scene.lights)} lights cast them"))
-    mirrors = any(item.material.is_mirror and isinstance(item.shape, Mesh) for item in scene.items)
+    mirrors = has_plane_mirrors(scene)
     if casts and mirrors:
         stages.append(Stage("mirror light", "mirrors throw light back"))
     if any(item.patterns for item in scene.items):
@@ -293,6 +301,11 @@ def plan_paint(scene: Scene, shadows: str, fills: str, kinds: frozenset[LineKind
         stages += _cue_stages(scene)
     stages += _label_stages(scene)
     return tuple(stages)
+
+
+def has_plane_mirrors(scene: Scene) -> bool:
+    """Whether there are meshes, or faces of such, in which one sees other things."""
+    return any(item.material.is_mirror and isinstance(item.shape, Mesh) for item in scene.items)
 
 
 def has_surfaces(scene: Scene) -> bool:

@@ -278,11 +278,16 @@ def curve_light(scene: Scene, view: View, item: Item) -> Light:
     """
     number = item.curves.light
     if not scene.lights and number is None:
-        x, y, z = (matmul(view.axes.T, np.array(UPPER_LEFT))).tolist()
-        return Light((x, y, z), parallel=True)
+        return default_light(view)
     if (number or 0) >= len(scene.lights):
         raise InputError(f"{item.name}: isophotes of light {number}: the scene has {len(scene.lights)} lights")
     return scene.lights[number or 0]
+
+
+def default_light(view: View) -> Light:
+    """The light of a scene that has none: from the eye's upper left."""
+    x, y, z = (matmul(view.axes.T, np.array(UPPER_LEFT))).tolist()
+    return Light((x, y, z), parallel=True)
 
 
 # What is drawn of things where nobody asks for kinds of lines.
