@@ -736,7 +736,9 @@ def between_planes(scene: Scene, camera: Camera) -> Scene:
     Source: Glaeser, section 2.5 (Hodgman and Sutherland); errata G2-10 to G2-12.
     """
     extent = float(np.ptp(scene.bounds, axis=0).max())
-    limits = [_Limit(_depths_beyond(camera, side, limit), _beyond(camera, side, limit)) for side, limit in _planes(camera)]
+    limits = [
+        _Limit(_depths_beyond(camera, side, limit), _beyond(camera, side, limit)) for side, limit in _planes(camera)
+    ]
     return replace(scene, items=tuple(_within(item, limits, ZERO_OF_EXTENT * extent) for item in scene.items))
 
 

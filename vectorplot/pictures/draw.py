@@ -50,6 +50,7 @@ def hatched_in_place(
     crease_angle_deg: float,
     tolerance_mm: float,
     budget: float,
+    reflections: int,
 ) -> Paths:
     """The strokes in what is seen of a scene's faces, as they come. hatch and all else as in draw."""
     from vectorplot.pictures.hatching import hatched
@@ -70,6 +71,7 @@ def hatched_in_place(
         crease_angle_deg=crease_angle_deg,
         tolerance_mm=tolerance_mm,
         budget=budget_of(budget),
+        reflections=reflections,
         progress=pipeline.fraction("hatching"),
     )
     return pipeline.run("hatching", filled, shapes.scene, placement, hatch, trace)
@@ -310,7 +312,7 @@ def draw(
     strokes = with_outline(strokes, shapes, placement, tolerance_mm, allowed)
     hatches = Paths.empty()
     if pipeline.calls_for("hatching"):
-        hatches = hatched_in_place(shapes, placement, hatch, crease_angle_deg, tolerance_mm, budget)
+        hatches = hatched_in_place(shapes, placement, hatch, crease_angle_deg, tolerance_mm, budget, reflections)
         hatches = hatches if labels is None else labels.interrupted(hatches, placement.page_from_world)
     found = finish.layered(pipeline, seen, view, strokes, hatches, hatch, placement.page)
     letters, cue = finish.letters(found), seen.depth_cue

@@ -668,7 +668,7 @@ class LineSources:
         from vectorplot.pictures.reflected_lines import Depth, with_reflections
 
         window = None if place is None else place.window
-        how = Depth(reflections, budget.mirrors, hidden, self.crease_angle_deg, tolerance, budget)
+        how = Depth(self.scene, reflections, budget.mirrors, hidden, self.crease_angle_deg, tolerance, budget)
         return self.pipeline.run("reflected lines", with_reflections, self, lines, seen, window, how)
 
 

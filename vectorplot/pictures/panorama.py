@@ -64,6 +64,7 @@ def panorama(
     frame: bool = False,
     longest_mm: float | None = None,
     shortest_mm: float | None = None,
+    reflections: int = 1,
     budget: float = 1.0,
     jobs: int | None = None,
     progress: Callable[[str, float], None] | None = None,
@@ -81,7 +82,7 @@ def panorama(
         Items' own lines come first, as there.
     style, pens, dashes, background, layers, unplotted : see draw
         Of a style that shows hidden lines none of them are here.
-    curves, tolerance_mm, title, frame, longest_mm, shortest_mm : see draw
+    curves, tolerance_mm, title, frame, longest_mm, shortest_mm, reflections : see draw
         Lines of smooth surfaces leave as curves, straight ones, which are none here, as polylines.
     budget, jobs, progress, explain : see draw
         Progress is told for each quarter of the round.
@@ -146,6 +147,7 @@ def panorama(
         crease_angle_deg=crease_angle_deg,
         tolerance_mm=tolerance_mm,
         budget=budget,
+        reflections=reflections,
     )
     strokes, marks, placement = pipeline.run(
         "panorama", panorama_on_page, round_about, eye, sheet, tolerance_mm, trace, pipeline.fraction("panorama")
@@ -170,6 +172,7 @@ def _seen_by(
     crease_angle_deg: float,
     tolerance_mm: float,
     budget: float,
+    reflections: int,
 ) -> Paths:
     """The visible lines of a scene on a page that the picture of a camera fills."""
     view = look(scene, camera)
@@ -183,6 +186,7 @@ def _seen_by(
         crease_angle_deg=crease_angle_deg,
         tolerance_mm=tolerance_mm,
         budget=budget,
+        reflections=reflections,
     )
 
 

@@ -124,8 +124,8 @@ def plan_draw(
     else:
         stages.append(Stage("counted lines", f"hidden lines are drawn {hidden}"))
     if reflections and style == "plain" and has_plane_mirrors(scene):
-        times = f", and what these show in them, {reflections} deep" if reflections > 1 else ""
-        stages.append(Stage("reflected lines", f"items are mirrors: what one sees in them{times} (--reflections)"))
+        why = f"items are mirrors: lines that one sees in them{_deep(reflections)}"
+        stages.append(Stage("reflected lines", why))
     if halo_mm > 0.0:
         stages.append(Stage("halo", f"lines end {halo_mm:g} mm beside what is in front of them"))
     stages.append(Stage("strokes", "lines on the page, those that lie on each other once"))
@@ -205,7 +205,7 @@ def chosen_shadows(scene: Scene, camera: Camera, size: tuple[int, int], fit: boo
     return "buffer", "everything is about as far away"
 
 
-def plan_render(scene: Scene, shadows: str, lines: bool, why: str = "") -> tuple[Stage, ...]:
+def plan_render(scene: Scene, shadows: str, lines: bool, why: str = "", reflections: int = 1) -> tuple[Stage, ...]:
     """The stages that rendering this scene calls for, in their order; nothing else runs. why: of such shadows."""
     stages = []
     if has_surfaces(scene):
@@ -225,8 +225,8 @@ def plan_render(scene: Scene, shadows: str, lines: bool, why: str = "") -> tuple
     stages.append(Stage("coplanar", "which of the faces in one plane is seen"))
     stages.append(Stage("depth", "which triangle or quadric body is in front in every pixel"))
     stages.append(Stage("shading", "every visible point once"))
-    if any(item.material.is_mirror for item in scene.items):
-        stages.append(Stage("mirrors", "what mirrors show"))
+    if reflections and any(item.material.is_mirror for item in scene.items):
+        stages.append(Stage("mirrors", f"what mirrors show{_deep(reflections)}"))
     if any(item.material.opacity < 1.0 for item in scene.items):
         stages.append(Stage("transparency", "what one sees through"))
     if lines or any(map(is_annotation, scene.items)):
@@ -245,7 +245,7 @@ def _has_mesh_lines(item: Item) -> bool:
     )
 
 
-def _shading_stages(scene: Scene, shadows: str) -> list[Stage]:
+def _shading_stages(scene: Scene, shadows: str, reflections: int) -> list[Stage]:
     """The stages that give colours to painted faces, and what is painted between them."""
     stages = []
     stages.append(
@@ -262,15 +262,17 @@ def _shading_stages(scene: Scene, shadows: str) -> list[Stage]:
         stages.append(Stage("patterns", "faces carry patterns"))
     if casts and clear:
         stages.append(Stage("transparent shadows", "items are transparent"))
-    if mirrors:
-        stages.append(Stage("reflections", "items are mirrors"))
+    if reflections and mirrors:
+        stages.append(Stage("reflections", f"items are mirrors{_deep(reflections)}"))
     if clear and any(item.material.refraction != 1.0 for item in scene.items):
         stages.append(Stage("refraction", "items refract light"))
     stages.append(Stage("fills", "polygons on the page"))
     return stages
 
 
-def plan_paint(scene: Scene, shadows: str, fills: str, kinds: frozenset[LineKind]) -> tuple[Stage, ...]:
+def plan_paint(
+    scene: Scene, shadows: str, fills: str, kinds: frozenset[LineKind], reflections: int = 1
+) -> tuple[Stage, ...]:
     """The stages that painting this scene calls for, in their order; nothing else runs."""
     stages = []
     if has_surfaces(scene):
@@ -289,7 +291,7 @@ def plan_paint(scene: Scene, shadows: str, fills: str, kinds: frozenset[LineKind
         stages.append(Stage("outlines", "the visible lines of the scene"))
         stages.append(Stage("erasing", "faces in the colour of the paper, and the lines on them"))
     else:
-        stages += _shading_stages(scene, shadows)
+        stages += _shading_stages(scene, shadows, reflections)
     if fills == "visible":
         stages.append(Stage("visible fills", "each without what is painted over it"))
         if any(item.material.opacity < 1.0 for item in scene.items):
@@ -301,6 +303,11 @@ def plan_paint(scene: Scene, shadows: str, fills: str, kinds: frozenset[LineKind
         stages += _cue_stages(scene)
     stages += _label_stages(scene)
     return tuple(stages)
+
+
+def _deep(reflections: int) -> str:
+    """How deep mirrors in mirrors are followed, as far as there are any."""
+    return f", and mirrors in them, {reflections} deep" if reflections > 1 else ""
 
 
 def has_plane_mirrors(scene: Scene) -> bool:

@@ -34,7 +34,7 @@ from vectorplot.scene.item import Item
 from vectorplot.scene.placement import box_corners
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import NOTHING, View, view_of
-from vectorplot.tolerances import CUT_EDGE_OF_EXTENT, EDGE_ON_SINE
+from vectorplot.tolerances import CUT_EDGE_OF_EXTENT
 from vectorplot.visibility.polyhedra.hidden_lines import Visibility
 from vectorplot.visibility.polyhedra.lines import Lines, in_window, straight_lines
 from vectorplot.visibility.projected_faces import project_faces
@@ -49,9 +49,9 @@ WIDER = 0.02
 
 @dataclass(frozen=True, eq=False)
 class Doubles(Elements):
-    """Straight lines (n,) as they are seen in mirrors, in the view: start, end (3,n), where they seem to be; here, there
-    (3,n): where mirrors show their ends; nearer (2,n): of the way to both ends these are so far along; item (n,): whose; smooth (n,): chords of curves; hidden_by (n,): how
-    many items hide them in the mirror; mirror (n,): the mirror."""
+    """Straight lines (n,) as they are seen in mirrors, in the view. start, end (3,n): where they seem to be; here,
+    there (3,n): where mirrors show their ends; nearer (2,n): after which part of the ways to these; item (n,): whose
+    they are; smooth (n,): chords of curves; hidden_by (n,): how many items hide them in the mirror; mirror (n,)."""
 
     start: Floats = field(metadata=IN_COLUMNS)
     end: Floats = field(metadata=IN_COLUMNS)
@@ -69,9 +69,11 @@ class Doubles(Elements):
 
 @dataclass(frozen=True)
 class Depth:
-    """How far lines are followed into mirrors: reflections: from mirror to mirror so many times; most: mirrors that are
-    looked into; hidden: whether hidden lines are wanted too, a word of draw; tolerance: of chords, in the image."""
+    """How far lines are followed into mirrors. scene: of the picture, of which each mirror shows what is before it;
+    reflections: so many times from mirror to mirror; most: mirrors that are looked into; hidden: whether hidden lines
+    are wanted too, a word of draw; tolerance: of chords, in the image."""
 
+    scene: Scene
     reflections: int
     most: int
     hidden: str
@@ -107,7 +109,9 @@ def mirrored_projection(view: Projection, normal: Floats, point: Floats) -> Proj
     )
 
 
-def _before(scene: Scene, view: View, mirrors: Mirrors, number: int, behind: Projection, window: Window | None) -> Scene:
+def _before(
+    scene: Scene, view: View, mirrors: Mirrors, number: int, behind: Projection, window: Window | None
+) -> Scene:
     """What of a scene the eye behind a mirror may see in a window; items keep their numbers."""
     normal, base = matmul(view.axes.T, mirrors.normal[:, number]), view.world_of(mirrors.point[:, number, None])[0]
     tolerance = view.tolerance * view.scale
@@ -154,7 +158,9 @@ def _looked_into(shapes: LineSources, window: Window | None, most: int) -> tuple
     box = faces.box[:, seen.face].astype(np.float64)
     if window is not None:
         (left, low), (right, high) = window
-        box = np.stack([np.maximum(box[0], left), np.minimum(box[1], right), np.maximum(box[2], low), np.minimum(box[3], high)])
+        box = np.stack(
+            [np.maximum(box[0], left), np.minimum(box[1], right), np.maximum(box[2], low), np.minimum(box[3], high)]
+        )
     wide, tall = box[1] - box[0], box[3] - box[2]
     area = np.bincount(seen.plane, np.where((wide > 0.0) & (tall > 0.0), wide * tall, 0.0), len(seen))
     order = np.argsort(-area, kind="stable")
@@ -185,10 +191,12 @@ def _doubles(shapes: LineSources, mirrors: Mirrors, number: int, window: Window 
     if seen_in is not None:
         (right, low), (left, high) = seen_in
         seen_in = np.array([left, low]), np.array([right, high])
-    scene = _before(shapes.scene, view, mirrors, number, behind, seen_in)
+    scene = _before(how.scene, view, mirrors, number, behind, seen_in)
     view_behind = view_of(scene, behind)
     pipeline = Pipeline(plan_draw(scene, shapes.kinds, how.hidden, 0.0), None, None)
-    sources = traceable(pipeline, scene, view_behind, project_faces(view_behind), shapes.kinds, how.crease_angle_deg, how.budget)
+    sources = traceable(
+        pipeline, scene, view_behind, project_faces(view_behind), shapes.kinds, how.crease_angle_deg, how.budget
+    )
     lines = in_window(view_behind, sources.lines(how.tolerance, how.budget), seen_in)
     lines = sources.before_balls(lines)
     seen = sources.seen(lines)
@@ -334,7 +342,9 @@ def with_reflections(
     if lines.chords is not None:
         none, own = np.full(len(more), -1), lines.chords
         ends = (np.concatenate([side, np.full(len(more), at)]) for side, at in ((own.begin, 0.0), (own.end, 1.0)))
-        every = replace(every, chords=replace(own, chord=np.concatenate([own.chord, none]), begin=next(ends), end=next(ends)))
+        every = replace(
+            every, chords=replace(own, chord=np.concatenate([own.chord, none]), begin=next(ends), end=next(ends))
+        )
     return every, Visibility(
         np.concatenate([seen.segment, len(lines) + np.arange(len(more))]),
         np.concatenate([seen.low, np.zeros(len(more))]),
