@@ -665,10 +665,19 @@ class LineSources:
         """
         if not self.pipeline.calls_for("reflected lines"):
             return lines, seen
-        from vectorplot.pictures.reflected_lines import Depth, with_reflections
+        from vectorplot.pictures.reflected_lines import Depth, corners_of, with_reflections
 
         window = None if place is None else place.window
-        how = Depth(self.scene, reflections, budget.mirrors, hidden, self.crease_angle_deg, tolerance, budget)
+        how = Depth(
+            self.scene,
+            corners_of(self.scene),
+            reflections,
+            budget.mirrors,
+            hidden,
+            self.crease_angle_deg,
+            tolerance,
+            budget,
+        )
         return self.pipeline.run("reflected lines", with_reflections, self, lines, seen, window, how)
 
 

@@ -123,7 +123,7 @@ def plan_draw(
         stages.append(Stage("visible lines", "hidden lines are left out"))
     else:
         stages.append(Stage("counted lines", f"hidden lines are drawn {hidden}"))
-    if reflections and style == "plain" and has_plane_mirrors(scene):
+    if reflections and style == "plain" and wanted - {LineKind.OUTLINE} and has_plane_mirrors(scene):
         why = f"items are mirrors: lines that one sees in them{_deep(reflections)}"
         stages.append(Stage("reflected lines", why))
     if halo_mm > 0.0:

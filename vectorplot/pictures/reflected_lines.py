@@ -70,10 +70,11 @@ class Doubles(Elements):
 @dataclass(frozen=True)
 class Depth:
     """How far lines are followed into mirrors. scene: of the picture, of which each mirror shows what is before it;
-    reflections: so many times from mirror to mirror; most: mirrors that are looked into; hidden: whether hidden lines
-    are wanted too, a word of draw; tolerance: of chords, in the image."""
+    corners (i,8,3): see corners_of; reflections: so many times from mirror to mirror; most: mirrors that are looked
+    into; hidden: whether hidden lines are wanted too, a word of draw; tolerance: of chords, in the image."""
 
     scene: Scene
+    corners: Floats
     reflections: int
     most: int
     hidden: str
@@ -110,40 +111,55 @@ def mirrored_projection(view: Projection, normal: Floats, point: Floats) -> Proj
 
 
 def _before(
-    scene: Scene, view: View, mirrors: Mirrors, number: int, behind: Projection, window: Window | None
-) -> Scene:
-    """What of a scene the eye behind a mirror may see in a window; items keep their numbers."""
+    how: Depth, view: View, mirrors: Mirrors, number: int, behind: Projection, window: Window | None
+) -> Scene | None:
+    """What of a scene the eye behind a mirror may see in a window; items keep their numbers. None where that is
+    nothing."""
     normal, base = matmul(view.axes.T, mirrors.normal[:, number]), view.world_of(mirrors.point[:, number, None])[0]
     tolerance = view.tolerance * view.scale
+    reached = (matmul(how.corners - base, normal) > tolerance).any(axis=1) & _may_be_seen(how.corners, behind, window)
+    items = [
+        before_plane(item, normal, base, tolerance) if may else _nothing_of(item)
+        for item, may in zip(how.scene.items, reached.tolist(), strict=True)
+    ]
+    lights = how.scene.lights or (default_light(view),)
+    return replace(how.scene, items=tuple(items), lights=lights) if reached.any() else None
 
-    def seen(item: Item) -> Item:
-        if is_annotation(item) or not _may_be_seen(item, behind, window):
-            return replace(item, shape=NOTHING, patterns=(), added_edges=None)
-        return before_plane(item, normal, base, tolerance)
 
-    lights = scene.lights or (default_light(view),)
-    return replace(scene, items=tuple(map(seen, scene.items)), lights=lights)
+def _nothing_of(item: Item) -> Item:
+    return replace(item, shape=NOTHING, patterns=(), added_edges=None)
 
 
-def _may_be_seen(item: Item, projection: Projection, window: Window | None) -> bool:
-    """Whether the box around an item reaches into a window, as far as that can be told."""
-    if isinstance(item.shape, Mesh):
-        points = item.shape.vertices
-        if not len(points):
-            return False
-        low, high = points.min(axis=0), points.max(axis=0)
-    else:
+def _may_be_seen(corners: Floats, projection: Projection, window: Window | None) -> Bools:
+    """(i,) whether boxes, of which these are the corners (i,8,3), reach into a window, as far as that can be told."""
+    known = ~np.isnan(corners).any(axis=(1, 2))
+    if window is None:
+        return known
+    points = projection.points_of(corners.reshape(-1, 3))
+    near = (projection.depth_of(points) <= projection.near).reshape(-1, 8).any(axis=1)
+    image = projection.image_of(points).reshape(2, -1, 8)
+    inside = (image.max(axis=2) >= window[0][:, None]) & (image.min(axis=2) <= window[1][:, None])
+    return np.asarray(known & (near | inside.all(axis=0)))
+
+
+def corners_of(scene: Scene) -> Floats:
+    """(i,8,3) the corners of boxes around what items show in mirrors; NaN where that is nothing."""
+    return np.array([box_corners(_box_of(item)) for item in scene.items]).reshape(-1, 8, 3)
+
+
+def _box_of(item: Item) -> Floats:
+    nothing = np.full((2, 3), np.nan)
+    if is_annotation(item):
+        return nothing
+    low, high = item.mesh.bounds if isinstance(item.shape, Mesh) and len(item.mesh.vertices) else nothing
+    if not isinstance(item.shape, Mesh):
         low, high = smooth_bounds(item.shape)
         wider = WIDER * float((high - low).max())
         low, high = low - wider, high + wider
     if item.added_edges is not None and len(item.added_edges):
         ends = item.added_edges.reshape(-1, 3)
-        low, high = np.minimum(low, ends.min(axis=0)), np.maximum(high, ends.max(axis=0))
-    corners = projection.points_of(box_corners(np.stack([low, high])))
-    if window is None or not np.isfinite(corners).all() or (projection.depth_of(corners) <= projection.near).any():
-        return True
-    image = projection.image_of(corners)
-    return bool(((image.max(axis=1) >= window[0]) & (image.min(axis=1) <= window[1])).all())
+        low, high = np.fmin(low, ends.min(axis=0)), np.fmax(high, ends.max(axis=0))
+    return np.stack([low, high])
 
 
 # Which mirrors are looked into.
@@ -182,6 +198,12 @@ def _window_of(view: View, faces: Ints, within: Window | None) -> Window | None:
 # The lines of doubles, and where mirrors show them.
 
 
+def no_doubles() -> Doubles:
+    """None at all."""
+    ends, none = np.zeros((3, 0)), np.zeros(0, dtype=np.intp)
+    return Doubles(ends, ends, ends, ends, ends[:2], none, none.astype(np.bool_), none, none)
+
+
 def _doubles(shapes: LineSources, mirrors: Mirrors, number: int, window: Window | None, how: Depth) -> Doubles:
     """All that a mirror shows, as if nothing stood before it and it had no end but that of a window of the image."""
     view, normal = shapes.view, mirrors.normal[:, number]
@@ -191,7 +213,9 @@ def _doubles(shapes: LineSources, mirrors: Mirrors, number: int, window: Window 
     if seen_in is not None:
         (right, low), (left, high) = seen_in
         seen_in = np.array([left, low]), np.array([right, high])
-    scene = _before(how.scene, view, mirrors, number, behind, seen_in)
+    scene = _before(how, view, mirrors, number, behind, seen_in)
+    if scene is None:
+        return no_doubles()
     view_behind = view_of(scene, behind)
     pipeline = Pipeline(plan_draw(scene, shapes.kinds, how.hidden, 0.0), None, None)
     sources = traceable(
@@ -321,8 +345,8 @@ def reflected_lines(shapes: LineSources, window: Window | None, how: Depth) -> L
     """
     mirrors, numbers, left = _looked_into(shapes, window, how.most)
     if left:
-        text = unresolved(f"{left} mirrors are not looked into for lines")
-        warnings.warn(text, InputWarning, stacklevel=4)
+        # In mirrors in mirrors too it is said from here, and so once.
+        warnings.warn(unresolved("there are mirrors that are not looked into for lines"), InputWarning, stacklevel=2)
     within = how.beyond(len(numbers))
     found = [_doubles(shapes, mirrors, number, window, within) for number in in_turn(numbers)]
     if not found:
