@@ -74,6 +74,8 @@ class Room:
 
     def first(self, start: np.ndarray, end: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """The triangle that segments (n,3) meet first, -1 for none, and after which part of their way."""
+        if not len(start):
+            return np.zeros(0, dtype=int), np.zeros(0)
         a, b, c = (self.corners[:, k] for k in range(3))
         way = end - start
         normal = np.cross(b - a, c - a)
@@ -104,16 +106,19 @@ class Room:
         images = [points]
         for mirror in reversed(mirrors):
             images.append(self.reflected(mirror, images[-1]))
-        start, result = self.from_eye(images[-1]), np.ones(len(points), dtype=bool)
+        result, start = np.zeros(len(points), dtype=bool), self.from_eye(images[-1]).copy()
+        left = np.arange(len(points))
         for mirror, image in zip(mirrors, images[:0:-1], strict=True):
-            height, above = ((side - self.base[mirror]) @ self.normal[mirror] for side in (image, start))
-            met, part = self.first(start, image)
-            result &= (above > 0.0) & (height < -NEAR) & (met >= 0)
-            result &= np.where(met >= 0, self.mirror[met], -1) == mirror
-            start = start + np.where(np.isfinite(part), part, 0.0)[:, None] * (image - start)
+            height, above = ((side - self.base[mirror]) @ self.normal[mirror] for side in (image[left], start[left]))
+            left = left[(above > 0.0) & (height < -NEAR)]
+            met, part = self.first(start[left], image[left])
+            kept = (met >= 0) & (np.where(met >= 0, self.mirror[met], -1) == mirror)
+            left, part = left[kept], part[kept]
             # What comes next is the image in the mirrors that are left.
-        met, part = self.first(start, points)
-        return result & ((met < 0) | (part > 1.0 - NEAR))
+            start[left] += part[:, None] * (image[left] - start[left])
+        met, part = self.first(start[left], points[left])
+        result[left] = (met < 0) | (part > 1.0 - NEAR)
+        return result
 
 
 def on_page(drawing: vp.Drawing, points: np.ndarray) -> np.ndarray:
@@ -159,6 +164,8 @@ def missing(seed: int, depth: int, samples: int) -> tuple[int, int]:
             a, b = room.edges[edge, 0], room.edges[edge, 1]
             points = a + share * (b - a)
             seen = room.seen(points, mirrors)
+            if not seen.any():
+                continue
             for step in (-APART, APART):
                 seen &= room.seen(points + step * (b - a), mirrors)
             # What lies in the plane of a mirror is seen as itself.
