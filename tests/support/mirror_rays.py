@@ -11,6 +11,7 @@ from itertools import product
 import numpy as np
 
 import vectorplot as vp
+from vectorplot.drawing.drawing import Paths
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.testing.shapes import box
 
@@ -133,8 +134,7 @@ def drawn(scene: vp.Scene, camera: vp.Camera, depth: int) -> vp.Drawing:
 
 def reflected_strokes(drawing: vp.Drawing) -> tuple[np.ndarray, np.ndarray]:
     """The segments of the layer of reflected lines, (n,2,2), and their items."""
-    layer = next(layer for layer in drawing.layers if layer.name == "reflected")
-    paths = layer.strokes[0]
+    paths = next((layer.strokes[0] for layer in drawing.layers if layer.name == "reflected"), Paths.empty())
     own = np.repeat(np.arange(len(paths)), np.diff(paths.offsets))
     inside = own[1:] == own[:-1]
     return np.stack([paths.points[:-1], paths.points[1:]], axis=1)[inside], paths.item[own[:-1][inside]]
