@@ -156,6 +156,8 @@ class LineKind(IntEnum):
     """An edge at which two faces of a part from a CAD system meet without a crease."""
     REFLECTED = 24
     """A line that one sees in a mirror."""
+    REFRACTED = 25
+    """A line that one sees bent, in water or glass or behind it."""
 
     @property
     def word(self) -> str:
@@ -194,7 +196,7 @@ class LineKind(IntEnum):
 
 _OWN_ONLY = (LineKind.LABEL, LineKind.CENTRE, LineKind.GHOST, LineKind.TRACE)
 
-_BY_WAY = (LineKind.REFLECTED,)
+_BY_WAY = (LineKind.REFLECTED, LineKind.REFRACTED)
 """Lines of other kinds, as they are seen by way of things."""
 
 LINE_WORDS = tuple(kind.word for kind in LineKind if kind not in (LineKind.HATCH, *_BY_WAY, *_OWN_ONLY))

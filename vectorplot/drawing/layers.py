@@ -40,6 +40,7 @@ PENS = {
     "outline": Pen(0.5, BLACK),
     "tangent": Pen(0.13, BLACK),
     "reflected": Pen(0.18, BLACK),
+    "refracted": Pen(0.18, BLACK),
 }
 """The pens of layers by kind, as a draughtsman would choose them."""
 
@@ -69,6 +70,7 @@ KIND_LAYER = {
     LineKind.OUTLINE: "outline",
     LineKind.TANGENT: "tangent",
     LineKind.REFLECTED: "reflected",
+    LineKind.REFRACTED: "refracted",
 }
 
 COLOURS = {

@@ -742,16 +742,23 @@ def between_planes(scene: Scene, camera: Camera) -> Scene:
     return replace(scene, items=tuple(_within(item, limits, ZERO_OF_EXTENT * extent) for item in scene.items))
 
 
+def between(item: Item, normals: Floats, points: Floats, tolerance: float) -> Item:
+    """What of an item is on the sides of all of some planes that unit normals (n,3) lead to from points (n,3) of them,
+    bodies open where they are cut; what is no farther on the other side than a tolerance is in the plane, and stays."""
+    limits = []
+    for normal, point in zip(normals, points, strict=True):
+        x, y, z = (-normal).tolist()
+        limits.append(_Limit(_heights_above(normal, point), HalfSpaces(((x, y, z),), (-float(dot(normal, point)),))))
+    return _within(item, limits, tolerance)
+
+
+def _heights_above(normal: Floats, point: Floats) -> Callable[[Floats], Floats]:
+    return lambda points: np.asarray(matmul(points - point, normal))
+
+
 def before_plane(item: Item, normal: Floats, point: Floats, tolerance: float) -> Item:
-    """What of an item is before a plane: on the side that its unit normal (3,) leads to from a point (3,) of it, bodies
-    open where it cuts them. Faces in the plane are not before it, nor is what is no farther than a tolerance."""
-
-    def heights(points: Floats) -> Floats:
-        return np.asarray(matmul(points - point, normal))
-
-    x, y, z = (-normal).tolist()
-    limit = _Limit(heights, HalfSpaces(((x, y, z),), (-float(dot(normal, point)),)))
-    kept = _within(item, [limit], tolerance)
+    """What of an item is before a plane, see between; faces in the plane are not before it."""
+    kept, heights = between(item, normal[None], point[None], tolerance), _heights_above(normal, point)
     if not isinstance(kept.shape, Mesh) or not kept.shape.face_count:
         return kept
     before = np.maximum.reduceat(heights(kept.shape.vertices)[kept.shape.corners], kept.shape.offsets[:-1]) > tolerance

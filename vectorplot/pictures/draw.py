@@ -290,7 +290,7 @@ def draw(
         scale_pens=scale_pens,
         shortest_mm=shortest_mm,
     )
-    planned = plan_draw(seen, kinds, hidden, halo_mm, finish.look, reflections)
+    planned = plan_draw(seen, kinds, hidden, halo_mm, finish.look, reflections, prepared.camera.parallel)
     planned = plan_hatching(seen, hatch, planned) if finish.plain else planned
     planned = plan_arcs(planned) if curves == "arcs" else planned
     smooth = curves != "polyline" and any(not isinstance(item.shape, Mesh) for item in seen.items)

@@ -649,36 +649,37 @@ class LineSources:
         """Which parts of framed lines are seen."""
         return seen_parts(self.pipeline, self.view, self.faces, self.solid, lines)
 
-    def with_reflections(
+    def seen_by_any_way(
         self,
         lines: Lines,
-        seen: Visibility,
         place: Placement | None,
         reflections: int,
         hidden: str,
         tolerance: float,
         budget: Budget,
     ) -> tuple[Lines, Visibility]:
-        """Framed lines with what is seen of them, and with those that mirrors show, where the plan has these.
+        """Framed lines with what is seen of them, and those that mirrors and refracting solids show, where the plan has
+        these, in the place of what such solids stand before.
 
         reflections: from mirror to mirror, so many; hidden: see draw.
         """
-        if not self.pipeline.calls_for("reflected lines"):
-            return lines, seen
+        mirrors, glass = map(self.pipeline.calls_for, ("reflected lines", "refracted lines"))
+        if not mirrors and not glass:
+            return lines, self.seen(lines)
         from vectorplot.pictures.reflected_lines import Depth, corners_of, with_reflections
 
+        boxes, angle = corners_of(self.scene), self.crease_angle_deg
+        how = Depth(self.scene, boxes, reflections, budget.mirrors, hidden, angle, tolerance, budget)
         window = None if place is None else place.window
-        how = Depth(
-            self.scene,
-            corners_of(self.scene),
-            reflections,
-            budget.mirrors,
-            hidden,
-            self.crease_angle_deg,
-            tolerance,
-            budget,
-        )
-        return self.pipeline.run("reflected lines", with_reflections, self, lines, seen, window, how)
+        if not glass:
+            return self.pipeline.run("reflected lines", with_reflections, self, lines, self.seen(lines), window, how)
+        from vectorplot.pictures.refracted_lines import beside_glass, with_refractions
+
+        lines = beside_glass(self, lines)
+        seen = self.seen(lines)
+        if mirrors:
+            lines, seen = self.pipeline.run("reflected lines", with_reflections, self, lines, seen, window, how)
+        return self.pipeline.run("refracted lines", with_refractions, self, lines, seen, window, how)
 
 
 def traceable(
@@ -748,8 +749,7 @@ def placed_lines(
         every = shapes.lines(tolerance, budget)
         bounded = frame_of(view, every, sheet, fit)
         framed = shapes.framed(every, bounded)
-        seen = shapes.seen(framed)
-        framed, seen = shapes.with_reflections(framed, seen, bounded, reflections, hidden, tolerance, budget)
+        framed, seen = shapes.seen_by_any_way(framed, bounded, reflections, hidden, tolerance, budget)
         ends = _ends_to_fit(shapes, framed, seen, tolerance, budget)
         placement = bounded or fitted_picture(view, sheet, view.image_of(ends))
         if bounded is None and not ends.shape[1] and pipeline.calls_for("hatching"):
@@ -901,16 +901,19 @@ def lines_in_place(
     crease_angle_deg: float,
     tolerance_mm: float,
     budget: float,
-    reflections: int = 0,
+    reflections: int | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> Paths:
     """The visible parts of the lines of a scene, as they come, where a picture of it already has its place on the page.
 
-    view: of the scene, in the projection of the picture; progress(fraction) is called while it works. All else as of
+    view: of the scene, in the projection of the picture; reflections: see draw, None where nothing is seen by way of
+    mirrors and glass; progress(fraction) is called while it works. All else as of
     draw.
     """
     told = None if progress is None else lambda stage, fraction: progress(fraction)
-    pipeline = Pipeline(plan_draw(scene, kinds, "none", 0.0, reflections=reflections), None, told)
+    parallel = view.eye is None and reflections is not None
+    stages = plan_draw(scene, kinds, "none", 0.0, reflections=reflections or 0, parallel=parallel)
+    pipeline = Pipeline(stages, None, told)
     allowed, tolerance = budget_of(budget), 0.5 * tolerance_mm / placement.scale
     shapes = traceable(pipeline, scene, view, faces, kinds, crease_angle_deg, allowed)
     every = shapes.lines(tolerance, allowed)
@@ -918,8 +921,7 @@ def lines_in_place(
     cut = not placement.whole or view.reaches_too_far(every.start, every.end)
     place = placement if cut else None
     framed = shapes.framed(every, place)
-    seen = shapes.seen(framed)
-    framed, seen = shapes.with_reflections(framed, seen, place, reflections, "none", tolerance, allowed)
+    framed, seen = shapes.seen_by_any_way(framed, place, reflections or 0, "none", tolerance, allowed)
     strokes = PlacedLines(shapes, framed, seen, placement).strokes()
     return with_outline(strokes, shapes, placement, tolerance_mm, allowed)
 

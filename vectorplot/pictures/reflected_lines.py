@@ -8,6 +8,7 @@ meets the plane of the mirror in a segment, and that is a line like others, on a
 from __future__ import annotations
 
 import warnings
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -49,9 +50,10 @@ WIDER = 0.02
 
 @dataclass(frozen=True, eq=False)
 class Doubles(Elements):
-    """Straight lines (n,) as they are seen in mirrors, in the view. start, end (3,n): where they seem to be; here,
-    there (3,n): where mirrors show their ends; nearer (2,n): after which part of the ways to these; item (n,): whose
-    they are; smooth (n,): chords of curves; hidden_by (n,): how many items hide them in the mirror; mirror (n,)."""
+    """Straight lines (n,) as they are seen in mirrors and other panes, in the view. start, end (3,n): where they seem
+    to be; here, there (3,n): where panes show their ends; nearer (2,n): after which part of the ways to these; item
+    (n,): whose they are; smooth (n,): chords of curves; hidden_by (n,): how many items hide them; mirror (n,): the pane.
+    """
 
     start: Floats = field(metadata=IN_COLUMNS)
     end: Floats = field(metadata=IN_COLUMNS)
@@ -119,14 +121,15 @@ def _before(
     tolerance = view.tolerance * view.scale
     reached = (matmul(how.corners - base, normal) > tolerance).any(axis=1) & _may_be_seen(how.corners, behind, window)
     items = [
-        before_plane(item, normal, base, tolerance) if may else _nothing_of(item)
+        before_plane(item, normal, base, tolerance) if may else nothing_of(item)
         for item, may in zip(how.scene.items, reached.tolist(), strict=True)
     ]
     lights = how.scene.lights or (default_light(view),)
     return replace(how.scene, items=tuple(items), lights=lights) if reached.any() else None
 
 
-def _nothing_of(item: Item) -> Item:
+def nothing_of(item: Item) -> Item:
+    """An item in the place of another one that shows nothing."""
     return replace(item, shape=NOTHING, patterns=(), added_edges=None)
 
 
@@ -204,46 +207,66 @@ def no_doubles() -> Doubles:
     return Doubles(ends, ends, ends, ends, ends[:2], none, none.astype(np.bool_), none, none)
 
 
+@dataclass(frozen=True, eq=False)
+class Beyond:
+    """What is seen in a pane: a scene, the projection of the eye that sees it there, the window of the image in which
+    it does, and where points (3,n) of that projection seem to be to the eye before the pane."""
+
+    scene: Scene
+    projection: Projection
+    window: Window | None
+    moved: Callable[[Floats], Floats]
+
+
 def _doubles(shapes: LineSources, mirrors: Mirrors, number: int, window: Window | None, how: Depth) -> Doubles:
     """All that a mirror shows, as if nothing stood before it and it had no end but that of a window of the image."""
-    view, normal = shapes.view, mirrors.normal[:, number]
+    view = shapes.view
     window = _window_of(view, mirrors.face[mirrors.plane == number], window)
-    behind = mirrored_projection(view, normal, mirrors.point[:, number])
-    seen_in = None if window is None else (window[0] * [-1.0, 1.0], window[1] * [-1.0, 1.0])
-    if seen_in is not None:
-        (right, low), (left, high) = seen_in
-        seen_in = np.array([left, low]), np.array([right, high])
+    behind = mirrored_projection(view, mirrors.normal[:, number], mirrors.point[:, number])
+    seen_in = None
+    if window is not None:
+        (left, low), (right, high) = window
+        seen_in = np.array([-right, low]), np.array([-left, high])
     scene = _before(how, view, mirrors, number, behind, seen_in)
     if scene is None:
         return no_doubles()
-    view_behind = view_of(scene, behind)
-    pipeline = Pipeline(plan_draw(scene, shapes.kinds, how.hidden, 0.0), None, None)
-    sources = traceable(
-        pipeline, scene, view_behind, project_faces(view_behind), shapes.kinds, how.crease_angle_deg, how.budget
-    )
-    lines = in_window(view_behind, sources.lines(how.tolerance, how.budget), seen_in)
-    lines = sources.before_balls(lines)
-    seen = sources.seen(lines)
+    sources, lines, seen = seen_beyond(shapes, Beyond(scene, behind, seen_in, _flipped), how)
     if how.reflections:
         lines, seen = with_reflections(sources, lines, seen, seen_in, how)
-    start, end = lines.ends(view_behind, seen.segment, seen.low, seen.high)
-    flip = np.array([[-1.0], [1.0], [1.0]])
-    start, end = flip * start, flip * end
+    return doubles_of(view, mirrors, number, _flipped, sources.view, lines, seen)
+
+
+def _flipped(points: Floats) -> Floats:
+    return np.array([[-1.0], [1.0], [1.0]]) * points
+
+
+def seen_beyond(shapes: LineSources, beyond: Beyond, how: Depth) -> tuple[LineSources, Lines, Visibility]:
+    """The lines beyond a pane and what is seen of them there, with what they are traced on."""
+    view = view_of(beyond.scene, beyond.projection)
+    pipeline = Pipeline(plan_draw(beyond.scene, shapes.kinds, how.hidden, 0.0), None, None)
+    faces, wanted = project_faces(view), (shapes.kinds, how.crease_angle_deg, how.budget)
+    sources = traceable(pipeline, beyond.scene, view, faces, *wanted)
+    lines = sources.before_balls(in_window(view, sources.lines(how.tolerance, how.budget), beyond.window))
+    return sources, lines, sources.seen(lines)
+
+
+def doubles_of(
+    view: View,
+    panes: Mirrors,
+    number: int,
+    moved: Callable[[Floats], Floats],
+    behind: View,
+    lines: Lines,
+    seen: Visibility,
+) -> Doubles:
+    """What is seen of the lines of the view behind a pane, where it seems to be, see Beyond."""
+    start, end = map(moved, lines.ends(behind, seen.segment, seen.low, seen.high))
     some = lines.take(seen.segment)
-    (here, near), (there, far) = (_on_plane(view, mirrors, number, side) for side in (start, end))
-    found = Doubles(
-        start,
-        end,
-        here,
-        there,
-        np.stack([near, far]),
-        some.item,
-        some.smooth,
-        seen.hidden_by,
-        np.full(len(seen), number),
-    )
-    # What lies in the plane of the mirror is seen as itself.
-    off = np.maximum(*(np.abs(mirrors.heights(number, side)) for side in (start, end)))
+    (here, near), (there, far) = (_on_plane(view, panes, number, side) for side in (start, end))
+    nearer, pane = np.stack([near, far]), np.full(len(seen), number)
+    found = Doubles(start, end, here, there, nearer, some.item, some.smooth, seen.hidden_by, pane)
+    # What lies in the plane of the pane is seen as itself.
+    off = np.maximum(*(np.abs(panes.heights(number, side)) for side in (start, end)))
     return found.take(off > CUT_EDGE_OF_EXTENT)
 
 
@@ -260,19 +283,20 @@ def _on_plane(view: View, mirrors: Mirrors, number: int, points: Floats) -> tupl
 
 
 def in_faces(view: View, faces: Ints, normal: Floats, start: Floats, end: Floats) -> tuple[Ints, Floats, Floats]:
-    """What of segments from start to end (3,n) in a plane with a unit normal (3,) is in convex faces there, which run
-    around counter-clockwise: of which segment each part is, and (k,) from where to where, 0 to 1."""
+    """What of segments from start to end (3,n) in a plane with a unit normal (3,) is in convex faces there: of which
+    segment each part is, and (k,) from where to where, 0 to 1."""
     position, offsets = ragged.take(view.offsets, faces)
     corners = view.points[:, view.corners[position]]
     sides = corners[:, ragged.following(offsets)] - corners
     inwards = cross(np.broadcast_to(normal[:, None], sides.shape), sides)
-    length = np.sqrt(dot(inwards, inwards))
-    inwards = inwards / np.where(length > 0.0, length, 1.0)
-    first = offsets[:-1]
+    first, sizes = offsets[:-1], np.diff(offsets)
+    middle = np.repeat(np.add.reduceat(corners, first, axis=1) / sizes, sizes, axis=1)
+    length = np.copysign(np.sqrt(dot(inwards, inwards)), dot(inwards, middle - corners))
+    inwards = inwards / np.where(length != 0.0, length, 1.0)
     margin = view.tolerance
     boxes = (np.minimum.reduceat(corners, first, axis=1) - margin, np.maximum.reduceat(corners, first, axis=1) + margin)
     line, face = overlapping_boxes(np.minimum(start, end), np.maximum(start, end), *boxes)
-    counts = np.diff(offsets)[face]
+    counts = sizes[face]
     pair, side = ragged.owner(counts), ragged.ranges(offsets[face], counts)
     way, base = inwards[:, side], corners[:, side]
     here, there = (dot(way, points[:, line[pair]] - base) for points in (start, end))
@@ -292,7 +316,7 @@ def in_faces(view: View, faces: Ints, normal: Floats, start: Floats, end: Floats
 
 
 def _in_windows(view: View, mirrors: Mirrors, doubles: Doubles) -> Lines:
-    """Where mirrors show doubles, as lines on their faces; the item of each is the number of its double."""
+    """Where panes show doubles, as lines on their faces; the item of each is the number of its double."""
     parts = []
     for number in np.unique(doubles.mirror).tolist():
         own = np.flatnonzero(doubles.mirror == number)
@@ -336,30 +360,21 @@ def _as_seen(doubles: Doubles, shown: Lines) -> Lines:
     return replace(lines, smooth=some.smooth, behind=some.hidden_by)
 
 
-def reflected_lines(shapes: LineSources, window: Window | None, how: Depth) -> Lines:
-    """The visible parts of lines that mirrors show, and if wanted those that are hidden in them, where they seem to be:
-    behind their mirrors; behind (n,): how many items hide them there.
-
-    window: of the image, that of the picture; how: how far they are followed.
-    Warns: InputWarning where more mirrors are seen than the budget allows.
-    """
-    mirrors, numbers, left = _looked_into(shapes, window, how.most)
-    if left:
-        # In mirrors in mirrors too it is said from here, and so once.
-        warnings.warn(unresolved("there are mirrors that are not looked into for lines"), InputWarning, stacklevel=2)
-    within = how.beyond(len(numbers))
-    found = [_doubles(shapes, mirrors, number, window, within) for number in in_turn(numbers)]
-    if not found:
+def shown_lines(
+    shapes: LineSources, panes: Mirrors, found: Sequence[Doubles], kind: LineKind, window: Window | None, how: Depth
+) -> Lines:
+    """What panes show of all that is behind them, as far as it is in them and nothing stands before them, as lines of a
+    kind where they seem to be; behind (n,): how many items hide them there."""
+    doubles = records.joined([no_doubles(), *found])
+    if not len(doubles):
         return straight_lines(np.zeros((3, 0)), np.zeros((3, 0)), *(np.zeros(0, dtype=np.intp) for _ in range(3)))
-    doubles = records.joined(found)
-    return _as_seen(doubles, _seen_windows(shapes, _in_windows(shapes.view, mirrors, doubles), window, how))
+    seen = _seen_windows(shapes, _in_windows(shapes.view, panes, doubles), window, how)
+    lines = _as_seen(doubles, seen)
+    return replace(lines, kind=np.full(len(lines), int(kind)))
 
 
-def with_reflections(
-    shapes: LineSources, lines: Lines, seen: Visibility, window: Window | None, how: Depth
-) -> tuple[Lines, Visibility]:
-    """Lines, with what is seen of them, and those that mirrors show; all else as of reflected_lines."""
-    more = reflected_lines(shapes, window, how)
+def with_more(lines: Lines, seen: Visibility, more: Lines) -> tuple[Lines, Visibility]:
+    """Lines, with what is seen of them, and more lines, hidden by as many items as they say; all of these is seen."""
     if not len(more):
         return lines, seen
     every = records.joined([replace(lines, chords=None), more])
@@ -375,3 +390,20 @@ def with_reflections(
         np.concatenate([seen.high, np.ones(len(more))]),
         np.concatenate([seen.hidden_by, more.behind]),
     )
+
+
+def with_reflections(
+    shapes: LineSources, lines: Lines, seen: Visibility, window: Window | None, how: Depth
+) -> tuple[Lines, Visibility]:
+    """Lines, with what is seen of them, and those that mirrors show.
+
+    window: of the image, that of the picture; how: how far they are followed.
+    Warns: InputWarning where more mirrors are seen than the budget allows.
+    """
+    mirrors, numbers, left = _looked_into(shapes, window, how.most)
+    if left:
+        # In mirrors in mirrors too it is said from here, and so once.
+        warnings.warn(unresolved("there are mirrors that are not looked into for lines"), InputWarning, stacklevel=2)
+    within = how.beyond(len(numbers))
+    found = [_doubles(shapes, mirrors, number, window, within) for number in in_turn(numbers)]
+    return with_more(lines, seen, shown_lines(shapes, mirrors, found, LineKind.REFLECTED, window, how))
