@@ -13,6 +13,7 @@ import numpy as np
 import vectorplot as vp
 from vectorplot.drawing.drawing import Paths
 from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.polylines import segments
 from vectorplot.testing.shapes import box
 
 NEAR, APART = 1e-7, 1e-5
@@ -134,16 +135,20 @@ def drawn(scene: vp.Scene, camera: vp.Camera, depth: int) -> vp.Drawing:
 
 def reflected_strokes(drawing: vp.Drawing) -> tuple[np.ndarray, np.ndarray]:
     """The segments of the layer of reflected lines, (n,2,2), and their items."""
-    paths = next((layer.strokes[0] for layer in drawing.layers if layer.name == "reflected"), Paths.empty())
-    own = np.repeat(np.arange(len(paths)), np.diff(paths.offsets))
-    inside = own[1:] == own[:-1]
-    return np.stack([paths.points[:-1], paths.points[1:]], axis=1)[inside], paths.item[own[:-1][inside]]
+    return strokes_of(drawing, "reflected")
 
 
-def nearest(segments: np.ndarray, points: np.ndarray) -> np.ndarray:
+def strokes_of(drawing: vp.Drawing, name: str) -> tuple[np.ndarray, np.ndarray]:
+    """The segments of a layer, (n,2,2), and their items."""
+    paths = next((layer.strokes[0] for layer in drawing.layers if layer.name == name), Paths.empty())
+    own = np.repeat(np.arange(len(paths)), np.diff(paths.offsets) - 1 + paths.closed)
+    return paths.points[segments(paths)], paths.item[own]
+
+
+def nearest(strokes: np.ndarray, points: np.ndarray) -> np.ndarray:
     """(n,) distances of points (n,2) from the nearest of some segments."""
     result = np.full(len(points), np.inf)
-    for a, b in segments:
+    for a, b in strokes:
         way = b - a
         t = np.clip(((points - a) @ way) / max(way @ way, 1e-300), 0.0, 1.0)
         result = np.minimum(result, np.hypot(*(points - a - t[:, None] * way).T))
@@ -155,7 +160,7 @@ def missing(seed: int, depth: int, samples: int) -> tuple[int, int]:
     scene, camera = mirror_scene(seed)
     room, random = Room(scene, camera), np.random.default_rng(seed)
     drawing = drawn(scene, camera, depth)
-    segments, items = reflected_strokes(drawing)
+    strokes, items = reflected_strokes(drawing)
     wrong = seen_in_all = 0
     for times in range(1, depth + 1):
         for mirrors in product(range(len(room.normal)), repeat=times):
@@ -177,7 +182,7 @@ def missing(seed: int, depth: int, samples: int) -> tuple[int, int]:
             places = on_page(drawing, image)
             for number in np.unique(room.owner[edge[which]]).tolist():
                 own = room.owner[edge[which]] == number
-                wrong += int((nearest(segments[items == number], places[own]) > ON_PAGE_MM).sum())
+                wrong += int((nearest(strokes[items == number], places[own]) > ON_PAGE_MM).sum())
             seen_in_all += len(which)
     return wrong, seen_in_all
 
@@ -187,16 +192,16 @@ def unfounded(seed: int, depth: int, samples: int) -> tuple[int, int]:
     scene, camera = mirror_scene(seed)
     room, random = Room(scene, camera), np.random.default_rng(seed)
     drawing = drawn(scene, camera, depth)
-    segments, items = reflected_strokes(drawing)
-    if not len(segments):
+    strokes, items = reflected_strokes(drawing)
+    if not len(strokes):
         return 0, 0
-    length = np.hypot(*(segments[:, 1] - segments[:, 0]).T)
-    which = random.choice(len(segments), samples, p=length / length.sum())
+    length = np.hypot(*(strokes[:, 1] - strokes[:, 0]).T)
+    which = random.choice(len(strokes), samples, p=length / length.sum())
     share = random.uniform(0.0, 1.0, samples)
     reach = APART * 100.0 / np.maximum(length[which], 1e-9)
     inside = (share > reach) & (share < 1.0 - reach)
     which, share = which[inside], share[inside, None]
-    places = segments[which, 0] + share * (segments[which, 1] - segments[which, 0])
+    places = strokes[which, 0] + share * (strokes[which, 1] - strokes[which, 0])
     found = np.zeros(len(places), dtype=bool)
     start, way = sight(drawing, room, places)
     for _ in range(depth):

@@ -52,7 +52,7 @@ WIDER = 0.02
 class Doubles(Elements):
     """Straight lines (n,) as they are seen in mirrors and other panes, in the view. start, end (3,n): where they seem
     to be; here, there (3,n): where panes show their ends; nearer (2,n): after which part of the ways to these; item
-    (n,): whose they are; smooth (n,): chords of curves; hidden_by (n,): how many items hide them; mirror (n,): the pane.
+    (n,): whose they are; smooth (n,): chords of curves; hidden_by (n,): how many items hide them; mirror (n,).
     """
 
     start: Floats = field(metadata=IN_COLUMNS)

@@ -16,7 +16,7 @@ from vectorplot.effects.cuts import between
 from vectorplot.effects.glass import refracting_items
 from vectorplot.effects.mirrors import Mirrors, mirrors_of
 from vectorplot.effects.refraction import refracted
-from vectorplot.geometry import ragged
+from vectorplot.geometry import ragged, records
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.budget import in_turn
 from vectorplot.geometry.component_arrays import cross
@@ -40,7 +40,7 @@ from vectorplot.pictures.reflected_lines import (
 from vectorplot.scene.added_lines import default_light
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
-from vectorplot.tolerances import EDGE_ON_SINE
+from vectorplot.tolerances import CUT_EDGE_OF_EXTENT, EDGE_ON_SINE
 from vectorplot.visibility.polyhedra.hidden_lines import Visibility
 from vectorplot.visibility.polyhedra.lines import Lines
 from vectorplot.words import LineKind
@@ -124,6 +124,17 @@ def _part(how: Depth, normals: Floats, points: Floats, tolerance: float) -> Scen
     return replace(how.scene, items=tuple(items))
 
 
+def _made_by_cuts(view: View, lines: Lines, how: Depth, normals: Floats, points: Floats) -> Bools:
+    """(n,) which lines are borders that items have only since they were cut at planes as of _part."""
+    ends = [view.world_of(side) for side in (lines.start, lines.end)]
+    made, off = np.zeros(len(lines), dtype=np.bool_), CUT_EDGE_OF_EXTENT * view.scale
+    for normal, point in zip(normals, points, strict=True):
+        heights = matmul(how.corners - point, normal)
+        crossed = ((heights > off).any(axis=1) & (heights < -off).any(axis=1))[lines.item]
+        made |= crossed & np.logical_and(*(np.abs(matmul(end - point, normal)) <= off for end in ends))
+    return made & (lines.kind == LineKind.BOUNDARY)
+
+
 @dataclass(frozen=True, eq=False)
 class _Bend:
     """A pane at which parallel rays are bent: panes and number: which, its normal to the eye; constant: of the
@@ -184,6 +195,8 @@ def _inside(shapes: LineSources, fronts: Mirrors, number: int, item: int, how: D
     inwards, points = matmul(view.axes.T, -sides.normal).T, view.world_of(sides.point)
     finer = replace(how, tolerance=how.tolerance * bend.finer)
     sources, lines, seen = bend.seen(shapes, _part(how, inwards, points, view.tolerance * view.scale), finer)
+    made = _made_by_cuts(sources.view, lines, how, inwards, points)
+    seen = records.take(seen, ~made[seen.segment])
     backs = mirrors_of(sources.view, np.flatnonzero((sources.view.face_item == item) & (sources.faces.facing < 0)))
     backs = replace(backs, normal=-backs.normal)
     found = [_behind(sources, backs, back, item, finer) for back in range(len(backs))]
