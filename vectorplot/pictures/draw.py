@@ -28,7 +28,7 @@ from vectorplot.pictures.lines import (
 )
 from vectorplot.pictures.options import check_letters, check_look, check_options
 from vectorplot.pictures.pipeline import Pipeline, StageReport, stoppable
-from vectorplot.pictures.plan import accuracy_of_draw, plan_arcs, plan_draw, plan_hatching, with_accuracy
+from vectorplot.pictures.plan import accuracy_of_draw, plan_arcs, plan_draw, plan_hatching, refracts, with_accuracy
 from vectorplot.pictures.prepared_scene import Legend, Paper, prepared_scene
 from vectorplot.pictures.promises import DRAWING, promised
 from vectorplot.scene.added_lines import with_default_lines
@@ -297,6 +297,10 @@ def draw(
     pipeline = Pipeline(with_accuracy(planned, accuracy_of_draw(tolerance_mm, smooth)), explain, progress, threads)
     view = pipeline.run("look", look, seen, prepared.camera)
     faces = pipeline.run("faces", project_faces, view)
+    if finish.plain and not prepared.camera.parallel and refracts(seen):
+        pipeline.tell(
+            "left out", "refraction, which bends lines in parallel pictures only; the verb paint bends faces", 0
+        )
     shapes = traceable(pipeline, seen, view, faces, kinds, crease_angle_deg, allowed)
     placed = placed_lines(shapes, sheet, fit, tolerance_mm, allowed, reflections, hidden)
     placement = prepared.around(placed.placement, view, sheet)
