@@ -901,18 +901,18 @@ def lines_in_place(
     crease_angle_deg: float,
     tolerance_mm: float,
     budget: float,
-    reflections: int | None = None,
+    reflections: int = 0,
+    bends: bool = False,
     progress: Callable[[float], None] | None = None,
 ) -> Paths:
     """The visible parts of the lines of a scene, as they come, where a picture of it already has its place on the page.
 
-    view: of the scene, in the projection of the picture; reflections: see draw, None where nothing is seen by way of
-    mirrors and glass; progress(fraction) is called while it works. All else as of
+    view: of the scene, in the projection of the picture; reflections: see draw; bends: whether the picture shows things
+    bent in glass; progress(fraction) is called while it works. All else as of
     draw.
     """
     told = None if progress is None else lambda stage, fraction: progress(fraction)
-    parallel = view.eye is None and reflections is not None
-    stages = plan_draw(scene, kinds, "none", 0.0, reflections=reflections or 0, parallel=parallel)
+    stages = plan_draw(scene, kinds, "none", 0.0, reflections=reflections, parallel=bends and view.eye is None)
     pipeline = Pipeline(stages, None, told)
     allowed, tolerance = budget_of(budget), 0.5 * tolerance_mm / placement.scale
     shapes = traceable(pipeline, scene, view, faces, kinds, crease_angle_deg, allowed)
@@ -921,7 +921,7 @@ def lines_in_place(
     cut = not placement.whole or view.reaches_too_far(every.start, every.end)
     place = placement if cut else None
     framed = shapes.framed(every, place)
-    framed, seen = shapes.seen_by_any_way(framed, place, reflections or 0, "none", tolerance, allowed)
+    framed, seen = shapes.seen_by_any_way(framed, place, reflections, "none", tolerance, allowed)
     strokes = PlacedLines(shapes, framed, seen, placement).strokes()
     return with_outline(strokes, shapes, placement, tolerance_mm, allowed)
 
@@ -938,8 +938,8 @@ OUTLINES = frozenset({LineKind.CONTOUR, LineKind.BOUNDARY})
 @dataclass(frozen=True, eq=False)
 class LineOverlay:
     """How the lines of a scene come to be on a picture of its faces. view: of the latter, surfaces as triangles; faces:
-    its faces in the image, where they are known; shortest: shorter lines are left out; all else as in draw, in the
-    units of the placement's page."""
+    its faces in the image, where they are known; shortest: shorter lines are left out; bends: whether glass bends its
+    faces; all else as in draw, in the units of the placement's page."""
 
     scene: Scene
     view: View
@@ -950,6 +950,7 @@ class LineOverlay:
     budget: float
     shortest: float | None = None
     reflections: int = 0
+    bends: bool = False
 
     def found(self, kinds: frozenset[LineKind], progress: Callable[[float], None]) -> Paths:
         """The visible lines, as they come; of no kinds those of annotations."""
@@ -1005,6 +1006,7 @@ class LineOverlay:
             tolerance_mm=self.tolerance_mm,
             budget=self.budget,
             reflections=self.reflections,
+            bends=self.bends,
             progress=progress,
         )
 

@@ -324,7 +324,7 @@ def paint(
         among = painted_bodies(painter, shown, beside_bodies)
     if among is not None:
         view, placement, polygons = among
-        drawn_by = (crease_angle_deg, tolerance_mm, budget, shortest_mm, reflections)
+        drawn_by = (crease_angle_deg, tolerance_mm, budget, shortest_mm, reflections, True)
         ruler = LineOverlay(scene, view, None, placement, *drawn_by)
     else:
         ordered = painter.ordered(shown)
@@ -334,7 +334,7 @@ def paint(
             placement = subject.around(placement, ordered.view, sheet)
         pipeline.measured("facets", "mm", outline_error, ordered.facets, ordered.view, placement)
         seen, lighting = painter.seen(ordered, placement)
-        drawn_by = (crease_angle_deg, tolerance_mm, budget, shortest_mm, reflections)
+        drawn_by = (crease_angle_deg, tolerance_mm, budget, shortest_mm, reflections, True)
         ruler = LineOverlay(scene, seen.view, seen.projected, placement, *drawn_by)
         if pipeline.calls_for("erasing"):
             polygons = erased(pipeline, seen, scene, ruler, kinds or line_kinds(ON_THINGS), palette)
