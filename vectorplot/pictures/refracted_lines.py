@@ -7,6 +7,7 @@ it. Each is drawn as any other picture, and each of its lines is seen in its fac
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -16,9 +17,10 @@ from vectorplot.effects.cuts import between
 from vectorplot.effects.glass import refracting_items
 from vectorplot.effects.mirrors import Mirrors, mirrors_of
 from vectorplot.effects.refraction import refracted
+from vectorplot.errors import InputWarning
 from vectorplot.geometry import ragged, records
 from vectorplot.geometry.algebra import matmul
-from vectorplot.geometry.budget import in_turn
+from vectorplot.geometry.budget import in_turn, unresolved
 from vectorplot.geometry.component_arrays import cross
 from vectorplot.geometry.projections import Projection
 from vectorplot.geometry.vectors import normalize
@@ -65,18 +67,38 @@ def beside_glass(shapes: LineSources, lines: Lines) -> Lines:
 def with_refractions(
     shapes: LineSources, lines: Lines, seen: Visibility, window: Window | None, how: Depth
 ) -> tuple[Lines, Visibility]:
-    """Lines, with what is seen of them, and those that refracting solids show: of what is in them, and behind them."""
+    """Lines, with what is seen of them, and those that refracting solids show: of what is in them, and behind them.
+
+    Warns: InputWarning where they have more faces than the budget allows to look through.
+    """
     how = replace(how, scene=replace(how.scene, lights=how.scene.lights or (default_light(shapes.view),)))
-    found, panes = list[Doubles](), list[Mirrors]()
-    for item in in_turn(np.flatnonzero(_bending(shapes)).tolist()):
+    found, panes, items = list[Doubles](), list[Mirrors](), np.flatnonzero(_bending(shapes)).tolist()
+    for item in items:
         face = np.flatnonzero((shapes.view.face_item == item) & (shapes.faces.facing > 0))
-        fronts = mirrors_of(shapes.view, face)
-        first = sum(map(len, panes))
-        panes.append(fronts)
-        for number in range(len(fronts)):
-            doubles = _inside(shapes, fronts, number, item, how)
+        panes.append(mirrors_of(shapes.view, face))
+    every = sum(map(len, panes))
+    within, first = how.beyond(every), 0
+    for item, fronts in zip(in_turn(items), panes, strict=True):
+        for number in range(min(len(fronts), how.most - first)):
+            doubles = _inside(shapes, fronts, number, item, within)
             found.append(replace(doubles, mirror=doubles.mirror + first))
+        first += len(fronts)
+    if every > how.most:
+        _tell_what_is_left()
     return with_more(lines, seen, shown_lines(shapes, _joined(panes), found, LineKind.REFRACTED, window, how))
+
+
+def _in_window(sources: LineSources, panes: Mirrors, window: Window) -> list[int]:
+    """The panes whose images reach into a window."""
+    left, right, low, high = sources.faces.box[:, panes.face]
+    (x, y), (x_end, y_end) = window
+    reaches = (right >= x) & (left <= x_end) & (high >= y) & (low <= y_end)
+    return np.unique(panes.plane[reaches]).tolist()
+
+
+def _tell_what_is_left() -> None:
+    text = unresolved("there are faces of glass that are not looked through for lines")
+    warnings.warn(text, InputWarning, stacklevel=2)
 
 
 def _bending(shapes: LineSources) -> Bools:
@@ -199,7 +221,10 @@ def _inside(shapes: LineSources, fronts: Mirrors, number: int, item: int, how: D
     seen = records.take(seen, ~made[seen.segment])
     backs = mirrors_of(sources.view, np.flatnonzero((sources.view.face_item == item) & (sources.faces.facing < 0)))
     backs = replace(backs, normal=-backs.normal)
-    found = [_behind(sources, backs, back, item, finer) for back in range(len(backs))]
+    seen_through = _in_window(sources, backs, bend.window)
+    found = [_behind(sources, backs, back, item, finer) for back in seen_through[: how.most]]
+    if len(seen_through) > how.most:
+        _tell_what_is_left()
     lines, seen = with_more(lines, seen, shown_lines(sources, backs, found, LineKind.REFRACTED, bend.window, finer))
     return bend.doubles(sources, lines, seen)
 
