@@ -135,7 +135,7 @@ def nothing_of(item: Item) -> Item:
 
 def _may_be_seen(corners: Floats, projection: Projection, window: Window | None) -> Bools:
     """(i,) whether boxes, of which these are the corners (i,8,3), reach into a window, as far as that can be told."""
-    known = ~np.isnan(corners).any(axis=(1, 2))
+    known = ~np.isnan(corners[:, 0, 0])
     if window is None:
         return known
     points = projection.points_of(corners.reshape(-1, 3))

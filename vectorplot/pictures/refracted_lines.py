@@ -93,7 +93,8 @@ def _in_window(sources: LineSources, panes: Mirrors, window: Window) -> list[int
     left, right, low, high = sources.faces.box[:, panes.face]
     (x, y), (x_end, y_end) = window
     reaches = (right >= x) & (left <= x_end) & (high >= y) & (low <= y_end)
-    return np.unique(panes.plane[reaches]).tolist()
+    found: list[int] = np.unique(panes.plane[reaches]).tolist()
+    return found
 
 
 def _tell_what_is_left() -> None:
@@ -138,10 +139,10 @@ def _part(how: Depth, normals: Floats, points: Floats, tolerance: float) -> Scen
     """What of the scene is on the sides of all of some planes that unit normals (n,3) lead to from points (n,3) of them
     in the world; items keep their numbers."""
     heights = np.stack([matmul(how.corners - point, normal) for normal, point in zip(normals, points, strict=True)])
-    may = (heights >= -tolerance).any(axis=2).all(axis=0).tolist()
+    may: Bools = np.all((heights >= -tolerance).any(axis=2), axis=0)
     items = [
         between(item, normals, points, tolerance) if some else nothing_of(item)
-        for item, some in zip(how.scene.items, may, strict=True)
+        for item, some in zip(how.scene.items, may.tolist(), strict=True)
     ]
     return replace(how.scene, items=tuple(items))
 
@@ -152,9 +153,9 @@ def _made_by_cuts(view: View, lines: Lines, how: Depth, normals: Floats, points:
     made, off = np.zeros(len(lines), dtype=np.bool_), CUT_EDGE_OF_EXTENT * view.scale
     for normal, point in zip(normals, points, strict=True):
         heights = matmul(how.corners - point, normal)
-        crossed = ((heights > off).any(axis=1) & (heights < -off).any(axis=1))[lines.item]
-        made |= crossed & np.logical_and(*(np.abs(matmul(end - point, normal)) <= off for end in ends))
-    return made & (lines.kind == LineKind.BOUNDARY)
+        crossed: Bools = np.any(heights > off, axis=1) & np.any(heights < -off, axis=1)
+        made |= crossed[lines.item] & np.logical_and(*(np.abs(matmul(end - point, normal)) <= off for end in ends))
+    return np.asarray(made & (lines.kind == LineKind.BOUNDARY))
 
 
 @dataclass(frozen=True, eq=False)
