@@ -15,15 +15,14 @@ from vectorplot.geometry.budget import budget_of, threads_of
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.io.anything import scene_of
+from vectorplot.pictures.line_sources import LineSources, traceable
 from vectorplot.pictures.lines import (
-    LineSources,
     OutputStyle,
     chord_error_mm,
     fit_error_mm,
     labels_in_place,
     lines_in_place,
     placed_lines,
-    traceable,
     with_outline,
 )
 from vectorplot.pictures.options import check_letters, check_look, check_options

@@ -42,7 +42,7 @@ from vectorplot.visibility.projected_faces import project_faces
 from vectorplot.words import LineKind
 
 if TYPE_CHECKING:
-    from vectorplot.pictures.lines import LineSources
+    from vectorplot.pictures.line_sources import LineSources
 
 Window = tuple[Floats, Floats]
 """A rectangle of the image plane, from one corner (2,) to the other."""

@@ -48,7 +48,7 @@ from vectorplot.visibility.polyhedra.lines import Lines
 from vectorplot.words import LineKind
 
 if TYPE_CHECKING:
-    from vectorplot.pictures.lines import LineSources
+    from vectorplot.pictures.line_sources import LineSources
 
 ALONG = np.array([0.0, 0.0, -1.0])
 """The way of the rays of a parallel picture, in its view."""
