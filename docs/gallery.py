@@ -37,7 +37,7 @@ LOOK_AT = {
     "implicit": "Surfaces by their equations alone: level lines on a rounded cube, isophotes on a pretzel.",
     "interpenetrating": "Beams driven through one another; the tips that come out of the die are small and complete.",
     "intersections": "Two cubes, a cylinder and a cube, a ring and a slab: only what each pair has in common is drawn.",
-    "mirror": "The painted mirror shows backs, patterns and shadows of things; drawn it is a board like any other.",
+    "mirror": "The mirror shows backs and patterns of things, in lines as well as painted; painted, their shadows too.",
     "mixed": "A polyhedron and smooth surfaces pierce one another; each hides what is behind it.",
     "patterns": "Each polygon lies in the coordinates of its face; what is on a face that turns away is not drawn.",
     "pencil": "A cone of order 45 on a cylinder, cut with a hexagonal prism: the sides end in arcs of hyperbolas.",

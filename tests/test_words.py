@@ -118,7 +118,7 @@ def test_kinds_come_once_and_none_is_none():
     kinds = {kind.word for kind in LineKind}
     features = {kind.word for kind in (*FEATURE_KINDS, *LIGHT_KINDS)}
     assert set(DRAWN) == set(LINE_WORDS) - {"edges", "outline"} - features
-    assert set(LINE_WORDS) == kinds - {"hatch", "label", "centre", "ghost", "trace"}
+    assert set(LINE_WORDS) == kinds - {"hatch", "label", "centre", "ghost", "trace", "reflected", "refracted"}
 
 
 @pytest.mark.parametrize(

@@ -159,6 +159,10 @@ class LineKind(IntEnum):
     """A line along which a shape turns away from a lamp that shines on it up to there."""
     SHADOW = 25
     """The edge of a shadow that something throws."""
+    REFLECTED = 26
+    """A line that one sees in a mirror."""
+    REFRACTED = 27
+    """A line that one sees bent, in water or glass or behind it."""
 
     @property
     def word(self) -> str:
@@ -197,7 +201,10 @@ class LineKind(IntEnum):
 
 _OWN_ONLY = (LineKind.LABEL, LineKind.CENTRE, LineKind.GHOST, LineKind.TRACE)
 
-LINE_WORDS = tuple(kind.word for kind in LineKind if kind not in (LineKind.HATCH, *_OWN_ONLY))
+_BY_WAY = (LineKind.REFLECTED, LineKind.REFRACTED)
+"""Lines of other kinds, as they are seen by way of things."""
+
+LINE_WORDS = tuple(kind.word for kind in LineKind if kind not in (LineKind.HATCH, *_BY_WAY, *_OWN_ONLY))
 """The kinds of lines that one can ask for, as they are spelled."""
 
 

@@ -303,7 +303,8 @@ def drawn(names, how):
     small = [name in SMOOTH for name in names]
     pages = [SMOOTH_PAGE if one else None for one in small]
     made = [
-        json.loads(json_bytes(vp.draw(scene, hidden=how, page=page))) for scene, page in zip(scenes, pages, strict=True)
+        json.loads(json_bytes(vp.draw(scene, hidden=how, page=page, reflections=0)))
+        for scene, page in zip(scenes, pages, strict=True)
     ]
     for drawing, one in zip(made, small, strict=True):
         drawing.update({"scale": SMOOTH_SCALE, "unproved": UNPROVED} if one else {})

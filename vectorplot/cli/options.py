@@ -1179,6 +1179,14 @@ HALO = click.option(
     help="Gap beside lines that lie in front.",
 )
 
+REFLECTIONS = click.option(
+    "--reflections",
+    type=of_option("reflections"),
+    default=1,
+    metavar="N",
+    help="How often one looks on from plane mirror to plane mirror; 0: they are plain faces.",
+)
+
 SHORTEST = click.option(
     "--shortest",
     "shortest_mm",

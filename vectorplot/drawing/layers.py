@@ -41,6 +41,8 @@ PENS = {
     "tangent": Pen(0.13, BLACK),
     "terminator": Pen(0.25, BLACK),
     "shadow": Pen(0.25, BLACK),
+    "reflected": Pen(0.18, BLACK),
+    "refracted": Pen(0.18, BLACK),
 }
 """The pens of layers by kind, as a draughtsman would choose them."""
 
@@ -71,6 +73,8 @@ KIND_LAYER = {
     LineKind.TANGENT: "tangent",
     LineKind.TERMINATOR: "terminator",
     LineKind.SHADOW: "shadow",
+    LineKind.REFLECTED: "reflected",
+    LineKind.REFRACTED: "refracted",
 }
 
 COLOURS = {

@@ -736,17 +736,59 @@ def between_planes(scene: Scene, camera: Camera) -> Scene:
     Source: Glaeser, section 2.5 (Hodgman and Sutherland); errata G2-10 to G2-12.
     """
     extent = float(np.ptp(scene.bounds, axis=0).max())
-    return replace(scene, items=tuple(_between(item, camera, ZERO_OF_EXTENT * extent) for item in scene.items))
+    limits = [
+        _Limit(_depths_beyond(camera, side, limit), _beyond(camera, side, limit)) for side, limit in _planes(camera)
+    ]
+    return replace(scene, items=tuple(_within(item, limits, ZERO_OF_EXTENT * extent) for item in scene.items))
 
 
-def _between(item: Item, camera: Camera, tolerance: float) -> Item:
+def between(item: Item, normals: Floats, points: Floats, tolerance: float) -> Item:
+    """What of an item is on the sides of all of some planes that unit normals (n,3) lead to from points (n,3) of them,
+    bodies open where they are cut; what is no farther on the other side than a tolerance is in the plane, and stays."""
+    limits = []
+    for normal, point in zip(normals, points, strict=True):
+        x, y, z = (-normal).tolist()
+        limits.append(_Limit(_heights_above(normal, point), HalfSpaces(((x, y, z),), (-float(dot(normal, point)),))))
+    return _within(item, limits, tolerance)
+
+
+def _heights_above(normal: Floats, point: Floats) -> Callable[[Floats], Floats]:
+    return lambda points: np.asarray(matmul(points - point, normal))
+
+
+def before_plane(item: Item, normal: Floats, point: Floats, tolerance: float) -> Item:
+    """What of an item is before a plane, see between; faces in the plane are not before it."""
+    kept, heights = between(item, normal[None], point[None], tolerance), _heights_above(normal, point)
+    if not isinstance(kept.shape, Mesh) or not kept.shape.face_count:
+        return kept
+    before = np.maximum.reduceat(heights(kept.shape.vertices)[kept.shape.corners], kept.shape.offsets[:-1]) > tolerance
+    if before.all():
+        return kept
+    place = np.where(before, np.cumsum(before) - 1, -1)
+    patterns = tuple(replace(one, face=int(place[one.face])) for one in kept.patterns if place[one.face] >= 0)
+    return replace(kept, shape=chosen_faces(kept.shape, before), patterns=patterns)
+
+
+@dataclass(frozen=True)
+class _Limit:
+    """A plane at which things end: how far points (n,3) are on the side that is kept (n,), and what is beyond it."""
+
+    heights: Callable[[Floats], Floats]
+    beyond: HalfSpaces
+
+
+def _depths_beyond(camera: Camera, side: float, limit: float) -> Callable[[Floats], Floats]:
+    return lambda points: side * (depths(points, camera) - limit)
+
+
+def _within(item: Item, limits: Sequence[_Limit], tolerance: float) -> Item:
     if isinstance(item.shape, Mesh):
         mesh, place = item.shape, np.arange(item.shape.face_count)
-        for side, limit in _planes(camera):
-            mesh, next_place = _cut(mesh, side * (depths(mesh.vertices, camera) - limit), tolerance)
+        for limit in limits:
+            mesh, next_place = _cut(mesh, limit.heights(mesh.vertices), tolerance)
             place = np.where(place >= 0, np.append(next_place, -1)[place], -1)
         if item.added_edges is not None and len(item.added_edges):
-            beyond = [_beyond(camera, side, limit) for side, limit in _planes(camera)]
+            beyond = [limit.beyond for limit in limits]
             start, end, _ = segments_outside(item.added_edges[:, 0], item.added_edges[:, 1], beyond)
             item = replace(item, added_edges=np.stack([start, end], axis=1))
         if mesh is item.shape:
@@ -758,12 +800,12 @@ def _between(item: Item, camera: Camera, tolerance: float) -> Item:
     low, high = smooth_bounds(item.shape)
     corners = np.where(np.array(list(np.ndindex(2, 2, 2))) == 1, high, low)
     met = []
-    for side, limit in _planes(camera):
-        inside = side * (depths(corners, camera) - limit)
+    for limit in limits:
+        inside = limit.heights(corners)
         if (inside < -tolerance).all():
             return replace(item, shape=NOTHING, patterns=())
         if (inside < -tolerance).any():
-            met.append(_beyond(camera, side, limit))
+            met.append(limit.beyond)
     return replace(item, shape=smooth_part(item, tuple(met)), patterns=()) if met else item
 
 

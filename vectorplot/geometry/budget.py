@@ -34,7 +34,8 @@ class Budget:
     reported. cells: of a domain around one family of curves; triangles: of an implicit surface around one; points:
     that its curves are refined to; pairs: of chords, chords and triangles, or sight lines and triangles that are
     close in the image; facets: triangles to paint or render; pieces: that piercing faces are cut into; windows: that
-    shortest paths of one place are searched through.
+    shortest paths of one place are searched through; mirrors: and faces of glass that are
+    looked into for lines.
     """
 
     cells: int = 1 << 13
@@ -44,6 +45,7 @@ class Budget:
     facets: int = 1 << 18
     pieces: int = 1 << 15
     windows: int = 20_000_000
+    mirrors: int = 512
 
 
 USUAL = Budget()

@@ -15,20 +15,19 @@ from vectorplot.geometry.budget import budget_of, threads_of
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.io.anything import scene_of
+from vectorplot.pictures.line_sources import LineSources, traceable
 from vectorplot.pictures.lines import (
-    LineSources,
     OutputStyle,
     chord_error_mm,
     fit_error_mm,
     labels_in_place,
     lines_in_place,
     placed_lines,
-    traceable,
     with_outline,
 )
 from vectorplot.pictures.options import check_letters, check_look, check_options
 from vectorplot.pictures.pipeline import Pipeline, StageReport, stoppable
-from vectorplot.pictures.plan import accuracy_of_draw, plan_arcs, plan_draw, plan_hatching, with_accuracy
+from vectorplot.pictures.plan import accuracy_of_draw, plan_arcs, plan_draw, plan_hatching, refracts, with_accuracy
 from vectorplot.pictures.prepared_scene import Legend, Paper, prepared_scene
 from vectorplot.pictures.promises import DRAWING, promised
 from vectorplot.scene.added_lines import with_default_lines
@@ -50,6 +49,7 @@ def hatched_in_place(
     crease_angle_deg: float,
     tolerance_mm: float,
     budget: float,
+    reflections: int,
 ) -> Paths:
     """The strokes in what is seen of a scene's faces, as they come. hatch and all else as in draw."""
     from vectorplot.pictures.hatching import hatched
@@ -70,6 +70,7 @@ def hatched_in_place(
         crease_angle_deg=crease_angle_deg,
         tolerance_mm=tolerance_mm,
         budget=budget_of(budget),
+        reflections=reflections,
         progress=pipeline.fraction("hatching"),
     )
     return pipeline.run("hatching", filled, shapes.scene, placement, hatch, trace)
@@ -97,6 +98,7 @@ def draw(
     depth_cue: DepthCue | str | None = None,
     background: str | None = None,
     halo_mm: float = 0.0,
+    reflections: int = 1,
     hatch: Hatching | Stippling | None = None,
     layers: str | None = None,
     unplotted: str | Iterable[str] = "",
@@ -160,6 +162,10 @@ def draw(
         The colour of the paper, drawn on a layer that is not plotted; as the style says where None.
     halo_mm : float
         Lines end so many mm beside what is in front of them.
+    reflections : int
+        How often lines are followed from plane mirror to plane mirror, 0 to 8: with 0 mirrors are plain faces, with 1
+        they show what stands before them, with 2 mirrors that they show do so too. Such lines have the kind
+        `reflected`.
     hatch : Hatching or Stippling, optional
         How visible faces are hatched, or stippled, where their items do not say it themselves; not at all where None.
     layers : str, optional
@@ -283,15 +289,19 @@ def draw(
         scale_pens=scale_pens,
         shortest_mm=shortest_mm,
     )
-    planned = plan_draw(seen, kinds, hidden, halo_mm, finish.look)
+    planned = plan_draw(seen, kinds, hidden, halo_mm, finish.look, reflections, prepared.camera.parallel)
     planned = plan_hatching(seen, hatch, planned) if finish.plain else planned
     planned = plan_arcs(planned) if curves == "arcs" else planned
     smooth = curves != "polyline" and any(not isinstance(item.shape, Mesh) for item in seen.items)
     pipeline = Pipeline(with_accuracy(planned, accuracy_of_draw(tolerance_mm, smooth)), explain, progress, threads)
     view = pipeline.run("look", look, seen, prepared.camera)
     faces = pipeline.run("faces", project_faces, view)
+    if finish.plain and not prepared.camera.parallel and refracts(seen):
+        pipeline.tell(
+            "left out", "refraction, which bends lines in parallel pictures only; the verb paint bends faces", 0
+        )
     shapes = traceable(pipeline, seen, view, faces, kinds, crease_angle_deg, allowed)
-    placed = placed_lines(shapes, sheet, fit, tolerance_mm, allowed)
+    placed = placed_lines(shapes, sheet, fit, tolerance_mm, allowed, reflections, hidden)
     placement = prepared.around(placed.placement, view, sheet)
     strokes = replace(placed, placement=placement).with_halo(halo_mm).strokes()
     for stage in ("visible lines", "counted lines"):
@@ -305,7 +315,7 @@ def draw(
     strokes = with_outline(strokes, shapes, placement, tolerance_mm, allowed)
     hatches = Paths.empty()
     if pipeline.calls_for("hatching"):
-        hatches = hatched_in_place(shapes, placement, hatch, crease_angle_deg, tolerance_mm, budget)
+        hatches = hatched_in_place(shapes, placement, hatch, crease_angle_deg, tolerance_mm, budget, reflections)
         hatches = hatches if labels is None else labels.interrupted(hatches, placement.page_from_world)
     found = finish.layered(pipeline, seen, view, strokes, hatches, hatch, placement.page)
     letters, cue = finish.letters(found), seen.depth_cue

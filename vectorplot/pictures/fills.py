@@ -55,6 +55,7 @@ from vectorplot.visibility.projected_faces import ProjectedFaces, project_faces
 
 if TYPE_CHECKING:
     from vectorplot.effects.decals import Decals
+    from vectorplot.effects.reflection_fills import Moved
 
 
 # The paper of a painted picture.
@@ -299,6 +300,7 @@ def coloured(
     aura_mm: float,
     tolerance_mm: float,
     budget: Budget,
+    reflections: int,
     cast: Callable[[VisiblePolygons], Decals] | None = None,
     united: Ints | None = None,
 ) -> Overlay:
@@ -317,7 +319,7 @@ def coloured(
     in_bands = None if split is None else split.faces_of(seen)
     decals, lighting = _decals(pipeline, seen, lighting, aura, tolerance_mm, budget, cast, in_bands)
     laid = _laid(rest, lighting, decals)
-    overlays = _overlays(pipeline, rest, lighting, decals, aura, tolerance_mm, budget)
+    overlays = _overlays(pipeline, rest, lighting, decals, aura, tolerance_mm, budget, reflections)
     plane = (lighting.plane if united is None else united)[rest.faces.source]
     if split is not None:
         plane = split.unit[~split.banded]
@@ -447,10 +449,11 @@ def _overlays(
     aura: float,
     tolerance_mm: float,
     budget: Budget,
+    reflections: int,
 ) -> tuple[Overlay, ...]:
     """What polygons of the picture show, painted right after them and what lies on them.
 
-    aura: the width of soft borders of shadows in the image.
+    aura: the width of soft borders of shadows in the image; reflections: as in draw.
     """
     found = []
     if pipeline.calls_for("reflections"):
@@ -461,12 +464,21 @@ def _overlays(
         borders = aura if pipeline.calls_for("shadows") else None
         off = off_surfaces(seen, tolerance_mm)
 
-        def decals_of(number: int, there: Lighting, which: Bools) -> tuple[Decals, ...]:
-            return double_decals(seen.scene, seen.view, shown, number, there, which, borders, off, budget)
+        def decals_of(double: View, moved: Moved, there: Lighting, which: Bools) -> tuple[Decals, ...]:
+            return double_decals(seen.scene, seen.view, double, moved, there, which, borders, off, budget)
 
         found.append(
             pipeline.run(
-                "reflections", reflection_fills, seen.view, lighting, shown, decals_of, seen.faces, seen.placement
+                "reflections",
+                reflection_fills,
+                seen.view,
+                lighting,
+                shown,
+                decals_of,
+                seen.faces,
+                seen.placement,
+                paper(seen.scene)[0],
+                reflections,
             )
         )
     if pipeline.calls_for("refraction"):
@@ -743,6 +755,7 @@ class FacePainter:
     aura_mm: float
     tolerance_mm: float
     budget: Budget
+    reflections: int
 
     @property
     def steps(self) -> int | None:
@@ -793,5 +806,5 @@ class FacePainter:
         united: Ints | None = None,
     ) -> Overlay:
         """As of coloured."""
-        page = seen.placement.page
-        return coloured(self.pipeline, seen, lighting, page, self.aura_mm, self.tolerance_mm, self.budget, cast, united)
+        how = (seen.placement.page, self.aura_mm, self.tolerance_mm, self.budget, self.reflections)
+        return coloured(self.pipeline, seen, lighting, *how, cast, united)

@@ -832,6 +832,7 @@ class HatchedPicture:
     crease_angle_deg: float
     tolerance_mm: float
     budget: Budget
+    reflections: int
     progress: Callable[[float], None]
 
     def on_faces(self, how: Sequence[Hatching | Stippling | None]) -> Paths:
@@ -913,7 +914,9 @@ class HatchedPicture:
         toned, budget, rough = self.toned, self.budget, ROUGHLY * self.tolerance_mm
         shown = without_coincident(toned)
         pipeline = Pipeline(
-            plan_paint(toned, "auto", "visible", frozenset()), None, lambda _, part: self.progress(part)
+            plan_paint(toned, "auto", "visible", frozenset(), self.reflections),
+            None,
+            lambda _, part: self.progress(part),
         )
         page, projection = self.placement.page, self.placement.projection
 
@@ -928,7 +931,7 @@ class HatchedPicture:
         normals = painted_normals(seen.view, toned.items, (), ordered.facets.normals, plane, self.crease_angle_deg)
         lighting = Lighting(toned.items, lights, normals, plane, TONES, ambient=AMBIENT)
         seen = finer(seen, lighting, budget, rough)
-        fills = coloured(pipeline, seen, lighting, page, 0.0, rough, budget).fills
+        fills = coloured(pipeline, seen, lighting, page, 0.0, rough, budget, self.reflections).fills
         regions = pipeline.run("visible fills", toned_regions, fills)
         return hatched_regions(regions, how, self.placement.page_from_world, self._followed(seen.view, how))
 
@@ -945,6 +948,7 @@ def hatched(
     crease_angle_deg: float,
     tolerance_mm: float,
     budget: Budget,
+    reflections: int = 1,
     progress: Callable[[float], None] = unheard,
 ) -> Paths:
     """The strokes that hatch the visible faces of a scene, as they come.
@@ -956,7 +960,9 @@ def hatched(
     """
     how = [given if item.hatch is None else item.hatch for item in scene.items]
     toned = replace(_toned(scene, how), background=None)
-    picture = HatchedPicture(scene, toned, placement, trace, crease_angle_deg, tolerance_mm, budget, progress)
+    picture = HatchedPicture(
+        scene, toned, placement, trace, crease_angle_deg, tolerance_mm, budget, reflections, progress
+    )
     painted = [_shows_more(toned, item, one) for item, one in zip(toned.items, how, strict=True)]
     found = [Paths.empty()]
     for way, those in ((picture.painted, painted), (picture.on_faces, [not more for more in painted])):

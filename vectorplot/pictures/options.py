@@ -131,6 +131,7 @@ OPTIONS: dict[str, Option] = {
     "thin_ends": _YES,
     "depth_cue": Option("a DepthCue or a text such as 'width', 'shade,8' or 'none'", _is_a("DepthCue")),
     "halo_mm": _number("a halo of {:g} mm", 0.0),
+    "reflections": _number("{:g} reflections", 0, 8, whole=True),
     "hatch": Option("a Hatching such as vp.Hatching('tone'), or a Stippling", _is_a("Hatching", "Stippling", texts=())),
     "layers": Option("a text such as 'kind' or 'kind,colour'", _is(str)),
     "unplotted": _WORDS,

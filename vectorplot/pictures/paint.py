@@ -114,6 +114,7 @@ def paint(
     aura_mm: float = 0.0,
     palette: int = PALETTE_SIZE,
     smooth: bool = True,
+    reflections: int = 1,
     fills: Literal["painted", "visible", "erasing"] = "painted",
     lines: str | Iterable[str] = (),
     crease_angle_deg: float = 25.0,
@@ -164,6 +165,8 @@ def paint(
     smooth : bool
         Smooth surfaces, meshes that look round and planes on which the light varies are shaded from corner to corner;
         otherwise every plane has one shade.
+    reflections : int
+        As in draw: so often mirrors are followed from one to the other, for polygons and for lines.
     fills : {"painted", "visible", "erasing"}
         Polygons painted one over the other, or only what is seen of each, for pens, which cannot paint over things,
         with transparent ones as sparse lines; or blank, with the visible lines on them: hidden lines by erasing.
@@ -284,7 +287,7 @@ def paint(
     check_targets(over.rules, names)
     legend = Legend(sheet, bar, scene.scale_bar, text)
     sheet = legend.room
-    stages = with_accuracy(plan_paint(scene, shadows, fills, kinds), accuracy_of_paint(tolerance_mm))
+    stages = with_accuracy(plan_paint(scene, shadows, fills, kinds, reflections), accuracy_of_paint(tolerance_mm))
     if smooth and fills == "painted" and subject.chart is None and not aura_mm:
         stages = plan_surface_bands(stages) if has_banded_surfaces(scene) else stages
         stages = plan_bodies(stages) if has_bodies(scene) else stages
@@ -309,6 +312,7 @@ def paint(
         aura_mm,
         tolerance_mm,
         limits,
+        reflections,
     )
     among = None
     if pipeline.calls_for("bodies"):
@@ -320,7 +324,8 @@ def paint(
         among = painted_bodies(painter, shown, beside_bodies)
     if among is not None:
         view, placement, polygons = among
-        ruler = LineOverlay(scene, view, None, placement, crease_angle_deg, tolerance_mm, budget, shortest_mm)
+        drawn_by = (crease_angle_deg, tolerance_mm, budget, shortest_mm, reflections, True)
+        ruler = LineOverlay(scene, view, None, placement, *drawn_by)
     else:
         ordered = painter.ordered(shown)
         beside = places_beside_faces(scene, ordered.view, None, sheet, fit, drawn, tolerance_mm, budget)
@@ -329,7 +334,7 @@ def paint(
             placement = subject.around(placement, ordered.view, sheet)
         pipeline.measured("facets", "mm", outline_error, ordered.facets, ordered.view, placement)
         seen, lighting = painter.seen(ordered, placement)
-        drawn_by = (crease_angle_deg, tolerance_mm, budget, shortest_mm)
+        drawn_by = (crease_angle_deg, tolerance_mm, budget, shortest_mm, reflections, True)
         ruler = LineOverlay(scene, seen.view, seen.projected, placement, *drawn_by)
         if pipeline.calls_for("erasing"):
             polygons = erased(pipeline, seen, scene, ruler, kinds or line_kinds(ON_THINGS), palette)

@@ -66,6 +66,7 @@ def panorama(
     frame: bool = False,
     longest_mm: float | None = None,
     shortest_mm: float | None = None,
+    reflections: int = 1,
     budget: float = 1.0,
     jobs: int | None = None,
     progress: Callable[[str, float], None] | None = None,
@@ -83,7 +84,7 @@ def panorama(
         Items' own lines come first, as there.
     style, pens, dashes, background, layers, unplotted : see draw
         Of a style that shows hidden lines none of them are here.
-    curves, tolerance_mm, title, frame, longest_mm, shortest_mm : see draw
+    curves, tolerance_mm, title, frame, longest_mm, shortest_mm, reflections : see draw
         Lines of smooth surfaces leave as curves, straight ones, which are none here, as polylines.
     budget, jobs, progress, explain : see draw
         Progress is told for each quarter of the round.
@@ -151,6 +152,7 @@ def panorama(
         crease_angle_deg=crease_angle_deg,
         tolerance_mm=tolerance_mm,
         budget=budget,
+        reflections=reflections,
     )
     strokes, marks, names, placement = pipeline.run(
         "panorama",
@@ -179,6 +181,7 @@ def _seen_by(
     crease_angle_deg: float,
     tolerance_mm: float,
     budget: float,
+    reflections: int,
 ) -> tuple[Paths, Ints]:
     """The visible lines of a scene on a page that the picture of a camera fills, and which labels it shows."""
     view = look(scene, camera)
@@ -193,6 +196,7 @@ def _seen_by(
         crease_angle_deg=crease_angle_deg,
         tolerance_mm=tolerance_mm,
         budget=budget,
+        reflections=reflections,
     )
     return lines, _labels_seen(scene, anchors, view, faces, placement)
 

@@ -61,8 +61,8 @@ BAND_PIXELS = 1 << 22
 """So many pixels are in memory at a time."""
 
 
-def pixels_in_bands(pipeline: Pipeline, picture: Picture, samples: int) -> Bytes:
-    """(rows, columns, 3) the finer picture, made in bands."""
+def pixels_in_bands(pipeline: Pipeline, picture: Picture, samples: int, reflections: int = 1) -> Bytes:
+    """(rows, columns, 3) the finer picture, made in bands; reflections: see with_mirrors."""
     result = np.zeros((picture.rows, picture.columns, 3), dtype=np.uint8)
     step = max(1, BAND_PIXELS // (picture.columns * samples)) * samples
     tops = range(0, picture.rows, step)
@@ -72,7 +72,7 @@ def pixels_in_bands(pipeline: Pipeline, picture: Picture, samples: int) -> Bytes
         buffer = band.run("depth", opaque_buffer, picture, top, bottom)
         colours = band.run("shading", shaded, picture, buffer)
         if band.calls_for("mirrors"):
-            colours = band.run("mirrors", with_mirrors, picture, buffer, colours)
+            colours = band.run("mirrors", with_mirrors, picture, buffer, colours, reflections)
         if band.calls_for("transparency"):
             colours = band.run("transparency", with_glass, picture, buffer, colours)
         result[top:bottom] = np.rint(colours)

@@ -75,9 +75,15 @@ def plan_cuts(scene: Scene, camera: Camera) -> tuple[Stage, ...]:
 
 
 def plan_draw(
-    scene: Scene, kinds: frozenset[LineKind], hidden: str, halo_mm: float, style: str = "plain"
+    scene: Scene,
+    kinds: frozenset[LineKind],
+    hidden: str,
+    halo_mm: float,
+    style: str = "plain",
+    reflections: int = 0,
+    parallel: bool = False,
 ) -> tuple[Stage, ...]:
-    """The stages that drawing this scene calls for, in their order; nothing else runs."""
+    """The stages that drawing this scene calls for, in their order; nothing else runs. parallel: the projection."""
     wanted = kinds.union(*(map(LineKind.from_word, item.lines) for item in scene.items if item.lines is not None))
     stages = [
         Stage("look", "the scene in the camera's axes, in the unit box"),
@@ -123,6 +129,11 @@ def plan_draw(
         stages.append(Stage("visible lines", "hidden lines are left out"))
     else:
         stages.append(Stage("counted lines", f"hidden lines are drawn {hidden}"))
+    if reflections and style == "plain" and wanted - {LineKind.OUTLINE} and has_plane_mirrors(scene):
+        why = f"items are mirrors: lines that one sees in them{_deep(reflections)}"
+        stages.append(Stage("reflected lines", why))
+    if parallel and style == "plain" and wanted - {LineKind.OUTLINE} and refracts(scene):
+        stages.append(Stage("refracted lines", "items refract light: lines in them and behind them"))
     if halo_mm > 0.0:
         stages.append(Stage("halo", f"lines end {halo_mm:g} mm beside what is in front of them"))
     stages.append(Stage("strokes", "lines on the page, those that lie on each other once"))
@@ -211,7 +222,7 @@ def chosen_shadows(scene: Scene, camera: Camera, size: tuple[int, int], fit: boo
     return "buffer", "everything is about as far away"
 
 
-def plan_render(scene: Scene, shadows: str, lines: bool, why: str = "") -> tuple[Stage, ...]:
+def plan_render(scene: Scene, shadows: str, lines: bool, why: str = "", reflections: int = 1) -> tuple[Stage, ...]:
     """The stages that rendering this scene calls for, in their order; nothing else runs. why: of such shadows."""
     stages = []
     if has_surfaces(scene):
@@ -231,8 +242,8 @@ def plan_render(scene: Scene, shadows: str, lines: bool, why: str = "") -> tuple
     stages.append(Stage("coplanar", "which of the faces in one plane is seen"))
     stages.append(Stage("depth", "which triangle or quadric body is in front in every pixel"))
     stages.append(Stage("shading", "every visible point once"))
-    if any(item.material.is_mirror for item in scene.items):
-        stages.append(Stage("mirrors", "what mirrors show"))
+    if reflections and any(item.material.is_mirror for item in scene.items):
+        stages.append(Stage("mirrors", f"what mirrors show{_deep(reflections)}"))
     if any(item.material.opacity < 1.0 for item in scene.items):
         stages.append(Stage("transparency", "what one sees through"))
     if lines or any(map(is_annotation, scene.items)):
@@ -251,7 +262,7 @@ def _has_mesh_lines(item: Item) -> bool:
     )
 
 
-def _shading_stages(scene: Scene, shadows: str) -> list[Stage]:
+def _shading_stages(scene: Scene, shadows: str, reflections: int) -> list[Stage]:
     """The stages that give colours to painted faces, and what is painted between them."""
     stages = []
     stages.append(
@@ -261,22 +272,24 @@ def _shading_stages(scene: Scene, shadows: str) -> list[Stage]:
     clear = any(item.material.opacity < 1.0 for item in scene.items)
     if casts:
         stages.append(Stage("shadows", f"{len(scene.lights)} lights cast them"))
-    mirrors = any(item.material.is_mirror and isinstance(item.shape, Mesh) for item in scene.items)
+    mirrors = has_plane_mirrors(scene)
     if casts and mirrors:
         stages.append(Stage("mirror light", "mirrors throw light back"))
     if any(item.patterns for item in scene.items):
         stages.append(Stage("patterns", "faces carry patterns"))
     if casts and clear:
         stages.append(Stage("transparent shadows", "items are transparent"))
-    if mirrors:
-        stages.append(Stage("reflections", "items are mirrors"))
+    if reflections and mirrors:
+        stages.append(Stage("reflections", f"items are mirrors{_deep(reflections)}"))
     if clear and any(item.material.refraction != 1.0 for item in scene.items):
         stages.append(Stage("refraction", "items refract light"))
     stages.append(Stage("fills", "polygons on the page"))
     return stages
 
 
-def plan_paint(scene: Scene, shadows: str, fills: str, kinds: frozenset[LineKind]) -> tuple[Stage, ...]:
+def plan_paint(
+    scene: Scene, shadows: str, fills: str, kinds: frozenset[LineKind], reflections: int = 1
+) -> tuple[Stage, ...]:
     """The stages that painting this scene calls for, in their order; nothing else runs."""
     stages = []
     if has_surfaces(scene):
@@ -295,7 +308,7 @@ def plan_paint(scene: Scene, shadows: str, fills: str, kinds: frozenset[LineKind
         stages.append(Stage("outlines", "the visible lines of the scene"))
         stages.append(Stage("erasing", "faces in the colour of the paper, and the lines on them"))
     else:
-        stages += _shading_stages(scene, shadows)
+        stages += _shading_stages(scene, shadows, reflections)
     if fills == "visible":
         stages.append(Stage("visible fills", "each without what is painted over it"))
         if any(item.material.opacity < 1.0 for item in scene.items):
@@ -307,6 +320,23 @@ def plan_paint(scene: Scene, shadows: str, fills: str, kinds: frozenset[LineKind
         stages += _cue_stages(scene)
     stages += _label_stages(scene)
     return tuple(stages)
+
+
+def _deep(reflections: int) -> str:
+    """How deep mirrors in mirrors are followed, as far as there are any."""
+    return f", and mirrors in them, {reflections} deep" if reflections > 1 else ""
+
+
+def has_plane_mirrors(scene: Scene) -> bool:
+    """Whether there are meshes, or faces of such, in which one sees other things."""
+    return any(item.material.is_mirror and isinstance(item.shape, Mesh) for item in scene.items)
+
+
+def refracts(scene: Scene) -> bool:
+    """Whether there are transparent polyhedra that bend light."""
+    return any(
+        item.material.refraction != 1.0 and not item.hides and isinstance(item.shape, Mesh) for item in scene.items
+    )
 
 
 def has_surfaces(scene: Scene) -> bool:

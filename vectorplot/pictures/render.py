@@ -96,6 +96,7 @@ def render(
     shadow_casters: Literal["all", "away"] = "all",
     shadow_focus: float | None = None,
     samples: int | None = None,
+    reflections: int = 1,
     transparency: Literal["blended", "sparse"] = "blended",
     crease_angle_deg: float = 25.0,
     lines: str | Iterable[str] = (),
@@ -148,6 +149,8 @@ def render(
     samples : int, optional
         Every pixel is the mean light of samples x samples ones, 8 x 8 at most (None: 2 x 2, where there is room for so
         many).
+    reflections : int
+        See draw: so often mirrors are followed from one to the other, for faces and for lines.
     transparency : {"blended", "sparse"}
         Transparent items are mixed with what is behind them, or set every second, third or fourth pixel, whichever
         comes nearest to their opacity.
@@ -251,7 +254,9 @@ def render(
     whole, size = size, pixels_left_of_bar(size, bar)
     how, why = chosen_shadows(seen, prepared.camera, size, fit) if shadows == "auto" else (shadows, "")
     said = accuracy_of_render(FACET_PIXELS, how, texels)
-    pipeline = Pipeline(with_accuracy(plan_render(seen, how, bool(kinds), why), said), explain, progress, threads)
+    pipeline = Pipeline(
+        with_accuracy(plan_render(seen, how, bool(kinds), why, reflections), said), explain, progress, threads
+    )
     _tell_what_is_missing(pipeline, seen, kinds)
     fine, page = (size[0] * samples, size[1] * samples), raster_page(size, margin_pixels, samples)
     projection = projection_of(prepared.camera, seen.bounds)
@@ -295,9 +300,9 @@ def render(
         picture = replace(picture, every=sparseness(opacity), door=samples)
     if how == "exact":
         picture = replace(picture, points_at_once=EXACT_POINTS_AT_ONCE)
-    pixels = pixels_in_bands(pipeline, picture, samples)
+    pixels = pixels_in_bands(pipeline, picture, samples, reflections)
     mm = samples * PIXELS_PER_MM
-    drawn_by = (crease_angle_deg, LINE_PIXELS, budget, None if shortest_mm is None else shortest_mm * mm)
+    drawn_by = (crease_angle_deg, LINE_PIXELS, budget, None if shortest_mm is None else shortest_mm * mm, reflections)
     overlay, found = LineOverlay(seen, view, None, placement, *drawn_by), None
     if pipeline.calls_for("lines"):
         found = pipeline.run("lines", overlay.found, kinds, pipeline.fraction("lines"))

@@ -436,6 +436,8 @@ class _Views:
             pens=PENS,
             dashes=DASHES,
             curves=curves,
+            # Views are of parts, not of what these show.
+            reflections=0,
             **self.options,
         )
 

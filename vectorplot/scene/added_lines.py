@@ -278,7 +278,7 @@ def curve_light(scene: Scene, view: View, item: Item) -> Light:
     """
     number = item.curves.light
     if not scene.lights and number is None:
-        return _default_light(view)
+        return default_light(view)
     if (number or 0) >= len(scene.lights):
         raise InputError(f"{item.name}: isophotes of light {number}: the scene has {len(scene.lights)} lights")
     return scene.lights[number or 0]
@@ -286,7 +286,7 @@ def curve_light(scene: Scene, view: View, item: Item) -> Light:
 
 def lamps_of(scene: Scene, view: View) -> tuple[Light, ...]:
     """The lights of a scene that shine, or where it has none one from the eye's upper left."""
-    return shining(scene.lights) if scene.lights else (_default_light(view),)
+    return shining(scene.lights) if scene.lights else (default_light(view),)
 
 
 def shining(lights: Sequence[Light]) -> tuple[Light, ...]:
@@ -294,7 +294,8 @@ def shining(lights: Sequence[Light]) -> tuple[Light, ...]:
     return tuple(light for light in lights if light.intensity != 0.0)
 
 
-def _default_light(view: View) -> Light:
+def default_light(view: View) -> Light:
+    """The light of a scene that has none: from the eye's upper left."""
     x, y, z = (matmul(view.axes.T, np.array(UPPER_LEFT))).tolist()
     return Light((x, y, z), parallel=True)
 

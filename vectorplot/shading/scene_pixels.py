@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -189,8 +190,15 @@ def blend(picture: Colours, pixel: Ints, colours: ArrayLike, opacity: Floats) ->
         begin = end
 
 
-def with_mirrors(picture: Picture, buffer: DepthBuffer, colours: Colours) -> Colours:
-    """The colours with what the visible mirrors show; mirrors in mirrors only shine.
+Moved = Callable[[Floats], Floats]
+"""Where points (n,3) of the scene are seen, by way of mirrors."""
+
+
+def with_mirrors(
+    picture: Picture, buffer: DepthBuffer, colours: Colours, reflections: int = 1, moved: Moved = np.asarray
+) -> Colours:
+    """The colours with what the visible mirrors show; of further ones in these, reflections - 1 deep, the same: deeper
+    ones only shine. moved: where points are seen of which it is the buffer.
 
     Source: Glaeser, section 6.4 (the mirrored double of a scene, seen through a window).
     """
@@ -203,22 +211,28 @@ def with_mirrors(picture: Picture, buffer: DepthBuffer, colours: Colours) -> Col
     result = colours.reshape(-1, 3).copy()
     for number in np.argsort(-count, kind="stable")[:MOST_MIRRORS].tolist():
         own = pixel[picture.triangles.face[triangle] == faces[number]]
-        seen = _reflection(picture, buffer, int(triangle[first[number]]), own)
+        seen = _reflection(picture, buffer, int(triangle[first[number]]), own, reflections, moved)
         result[own] += np.float32(MIRROR_SHARE) * (seen - result[own])
     return result.reshape(colours.shape)
 
 
-def _reflection(picture: Picture, buffer: DepthBuffer, triangle: int, pixel: Ints) -> Colours:
+def _reflection(
+    picture: Picture, buffer: DepthBuffer, triangle: int, pixel: Ints, reflections: int, moved: Moved
+) -> Colours:
     """(m, 3) what the mirror in the plane of a triangle shows in pixels (m,) of a buffer."""
     triangles, eye = picture.triangles, np.array(picture.lighting.eye)
     a, b, c = triangles.points[triangles.corners[triangle]]
     normal = np.cross(b - a, c - a)
     normal /= norm(normal)
     normal *= np.sign(matmul(eye[:3], normal) - eye[3] * (matmul(a, normal))) or 1.0
-    height = matmul(triangles.points - a, normal)
-    double = picture.system.homogeneous(triangles.points - 2.0 * height[:, None] * normal)
+
+    def behind(points: Floats) -> Floats:
+        return moved(points - 2.0 * matmul(points - a, normal)[:, None] * normal)
+
+    double = picture.system.homogeneous(behind(triangles.points))
     # What is on the mirror's own side, as a half-space of the double.
-    side = HalfSpace(_in_pixels(picture.system, np.append(-normal, matmul(a, normal))), ZERO_OF_EXTENT)
+    base, tip = moved(np.stack([a, a + normal]))
+    side = HalfSpace(_in_pixels(picture.system, np.append(base - tip, matmul(base, tip - base))), ZERO_OF_EXTENT)
     x, y, z = (eye[:3] - 2.0 * (matmul(eye[:3], normal) - eye[3] * (matmul(a, normal))) * normal).tolist()
     lighting = replace(picture.lighting, eye=(x, y, z, float(eye[3])))
     flat = screen_triangles(double, triangles.corners, near=picture.system.near, sides=[side])
@@ -234,11 +248,16 @@ def _reflection(picture: Picture, buffer: DepthBuffer, triangle: int, pixel: Int
     met = np.flatnonzero(number >= 0)
     found = points_in_pixels(window, inside[met], number[met].astype(np.intp), double, triangles.corners)
     colours[met] = shaded_points(triangles, found, lighting).colours
-    if (picture.opacity >= 1.0).all():
+    if reflections == 1 and (picture.opacity >= 1.0).all():
         return colours
     whole, wanted = np.zeros((window.code.size, 3), dtype=np.float32), np.zeros(window.code.size, dtype=np.bool_)
     whole[inside], wanted[inside] = colours, True
-    _veil(replace(picture, homogeneous=double, lighting=lighting), window, whole, wanted)
+    there = replace(picture, homogeneous=double, lighting=lighting)
+    if reflections > 1:
+        opened = replace(window, triangle=np.where(wanted.reshape(window.code.shape), window.triangle, np.int32(-1)))
+        whole = with_mirrors(there, opened, whole, reflections - 1, behind)
+    if not (picture.opacity >= 1.0).all():
+        _veil(there, window, whole, wanted)
     return whole[inside]
 
 

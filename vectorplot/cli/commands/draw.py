@@ -17,6 +17,7 @@ from vectorplot.cli.options import (
     HALO,
     LAYERS,
     PAGE_OPTIONS,
+    REFLECTIONS,
     SHORTEST,
     STROKE_OPTIONS,
     TEXT,
@@ -118,6 +119,7 @@ def hatching_from(options: Mapping[str, Any]) -> tuple[Hatching | Stippling | No
     DEPTH_CUE,
     BACKGROUND,
     HALO,
+    REFLECTIONS,
     *HATCHING_OPTIONS,
     LAYERS,
     click.option(

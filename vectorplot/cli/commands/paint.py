@@ -18,6 +18,7 @@ from vectorplot.cli.options import (
     LIGHTS,
     OVERLAID_OPTIONS,
     PAGE_OPTIONS,
+    REFLECTIONS,
     SHORTEST,
     TEXT,
     TILES,
@@ -42,6 +43,7 @@ if TYPE_CHECKING:
     EXPOSURE,
     shadows_option("paint", "Whether lights cast shadows."),
     *FACE_OPTIONS,
+    REFLECTIONS,
     click.option(
         "--fills",
         type=of_option("fills"),

@@ -556,9 +556,15 @@ def frame_of(view: View, lines: Lines, page: Page, fit: bool) -> Placement | Non
 
 def in_frame(view: View, lines: Lines, frame: Placement | None) -> Lines:
     """The lines in front of the eye, and inside the frame of the picture if it has one."""
+    return in_window(view, lines, None if frame is None else frame.window)
+
+
+def in_window(view: View, lines: Lines, window: tuple[Floats, Floats] | None) -> Lines:
+    """The lines in front of the eye, and inside a window of the image plane from one corner (2,) to the other, if there
+    is one."""
     planes = near_plane(view)
-    if frame is not None:
-        planes = np.concatenate([planes, window_planes(view, *frame.window)])
+    if window is not None:
+        planes = np.concatenate([planes, window_planes(view, *window)])
     if not len(planes):
         return lines
     low, high = inside(planes, lines.start, lines.end)
