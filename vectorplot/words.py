@@ -95,8 +95,7 @@ def _plain(word: str) -> str:
 
 
 class LineKind(IntEnum):
-    """What a line is; the smaller value wins where one line is several things at once, but a terminator wins over a
-    crease.
+    """What a line is; the smaller value wins where one line is several things, but a terminator over a crease.
 
     Examples
     --------

@@ -790,8 +790,7 @@ PROMISES = (
 UNIT = click.option(
     "--unit",
     type=click.Choice(["mm", "cm", "m", "in"]),
-    default="mm",
-    help="What a unit of the part is; all other lengths are in mm whatever it is.",
+    help="What a unit of the part is; all other lengths are in mm whatever it is.  [default: mm]",
 )
 
 TITLE = click.option("--title", default="", metavar="TEXT", show_default=False, help="Letters in the lower margin.")

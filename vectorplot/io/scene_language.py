@@ -14,7 +14,6 @@ from vectorplot.curves.curve import is_curve
 from vectorplot.errors import InputError, printable
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.solids import IDENTITY
-from vectorplot.io.integral_line_words import read_arrows
 from vectorplot.io.item_reader import ItemReader
 from vectorplot.io.mesh_file import shown
 from vectorplot.io.named_files import DEEPEST, NamedFiles
@@ -153,6 +152,8 @@ class _Reader(ItemReader):
 
     def field_arrows(self, at: int, scene: Scene) -> Scene:
         """The arrows that a statement asks for, on an item that may come behind it."""
+        from vectorplot.io.integral_line_words import read_arrows
+
         name, field, lengths, _ = read_arrows(self.source, at)
         item = next((item for item in scene.items if item.name == name), None)
         if item is None:
@@ -236,6 +237,8 @@ class _Reader(ItemReader):
             self.annotations.append(annotation)
             return
         if word == "field_arrows":
+            from vectorplot.io.integral_line_words import read_arrows
+
             self.arrows.append(self.at)
             _, _, _, self.at = read_arrows(self.source, self.at)
             return

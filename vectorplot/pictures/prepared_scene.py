@@ -20,7 +20,6 @@ from vectorplot.io.anything import scene_of
 from vectorplot.pictures.pipeline import Pipeline, StageReport
 from vectorplot.pictures.plan import plan_cuts
 from vectorplot.scene.annotations import LabelAnchors, label_anchors
-from vectorplot.scene.exploded import shown_apart
 from vectorplot.scene.item import Item
 from vectorplot.scene.light import Exposure, Light
 from vectorplot.scene.page import Page
@@ -134,7 +133,11 @@ def prepared_scene(
 
     Errors: see scene_of, camera_of and scaled.
     """
-    given = shown_apart(scene_of(scene))
+    given = scene_of(scene)
+    if given.explosion is not None:
+        from vectorplot.scene.exploded import shown_apart
+
+        given = shown_apart(given)
     chart = _chart_of(given, camera, paper)
     given, camera = (given, camera) if chart is None else (chart.scene, chart.camera)
     given = given if background is None else replace(given, background=background)

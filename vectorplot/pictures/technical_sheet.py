@@ -767,7 +767,7 @@ def technical_sheet(
     check_word("unit", told.unit, MM_PER)
     written_unit = told.measured_in or "mm"
     check_word("measured_in", written_unit, MM_PER)
-    wanted_scale = None if told.scale == "fit" else DrawingScale.of(str(told.scale))
+    wanted_scale = None if told.scale is None or told.scale == "fit" else DrawingScale.of(told.scale)
     per_unit = MM_PER[str(told.unit)]
     given = shown if per_unit == 1.0 else shown.scaled(per_unit)
     # Sheets have pens of their own.

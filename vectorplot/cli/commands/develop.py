@@ -86,6 +86,7 @@ def develop(
     if told.pop("landscape") and told["page"] is not None:
         told["page"] = f"{told['page'].split(' ')[0]} landscape"
     written = drawing_format(out, format_)
+    told["unit"] = told["unit"] or "mm"
     told_of_tiles = {"tiles": told.pop("tiles"), "out": out, "tolerance_mm": told["tolerance_mm"]}
     beside = [] if told_of_tiles["tiles"] is None else tiles_beside(told_of_tiles, written)
 

@@ -22,6 +22,7 @@ from vectorplot.cli.options import (
     QUIET,
     SHORTEST,
     TEXT,
+    UNIT,
     VIEW_WORDS,
     check_overlaid,
     crease_angle_option,
@@ -84,11 +85,7 @@ def _lying(page: str | None, standard: str | None, said: SheetSettings) -> str:
         metavar="A:B",
         help="Mm on paper for units of the part; fit: the largest of ISO 5455.  [default: fit]",
     ),
-    click.option(
-        "--unit",
-        type=click.Choice(["mm", "cm", "m", "in"]),
-        help="What a unit of the part is; all other lengths are in mm whatever it is.  [default: mm]",
-    ),
+    UNIT,
     click.option(
         "--standard",
         type=click.Choice(["iso", "asme"]),
@@ -138,7 +135,7 @@ def _lying(page: str | None, standard: str | None, said: SheetSettings) -> str:
     click.option(
         "--centre-lines/--no-centre-lines", default=None, help="Of bores, shafts and other round edges of meshes."
     ),
-    click.option("--frame/--no-frame", default=None, help="A border with centring marks and zones."),
+    click.option("--frame", is_flag=True, help="A border with centring marks and zones."),
     click.option(
         "--block/--no-block", default=None, help="The title block, or views alone, as a figure.  [default: block]"
     ),
@@ -195,6 +192,7 @@ def sheet(scene_file: tuple[str, ...], out: str, format_: str | None, quiet: boo
     landscape = told.pop("landscape")
     asked, upright = told.pop("sheet"), told["up"] is not None
     told |= {"cut_spacing_mm": told.pop("cut_spacing"), "title": told["title"] or None}
+    told["frame"] = told["frame"] or None
     # What is not said here the scene may say.
     told |= {name: told[name] or None for name in ("section", "detail_view", "breakout", "interrupted")}
     told |= {name: dict(told[name]) or None for name in ("fields", "made_of")}
