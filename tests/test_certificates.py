@@ -383,6 +383,19 @@ def test_a_stroke_in_crumbs_is_looked_at(cube_files):
     assert any(line.startswith("visible, but hidden") for line in wrong)
 
 
+def test_a_point_that_stands_twice_covers_no_lines(cube_files):
+    """A hidden stroke less, and in all others every point twice: segments without a length."""
+    strokes = cube_files[0]["strokes"]
+    gone = next(number for number, one in enumerate(strokes) if one["hidden_by"])
+    rest = [
+        {**one, **{key: np.repeat(one[key], 2, axis=0).tolist() for key in ("points", "points3d")}}
+        for number, one in enumerate(strokes)
+        if number != gone
+    ]
+    wrong, _ = told_of(cube_files, drawing={"strokes": rest})
+    assert any(line.startswith("hidden lines are drawn, but not") for line in wrong)
+
+
 def test_what_is_not_compared_is_said(cube_files):
     _, unproven = told_of(cube_files, drawing={"fills": [{"colour": "#000000"}]})
     assert unproven == ["fills of the drawing"]

@@ -205,7 +205,8 @@ def parts_along(lines: Segments, others: Segments, share: float, depth: float) -
     """Parts of segments that are within a share of the slack of others; depth: how heights count, on the page 0."""
     start, end, one, two = (side * [1.0, 1.0, depth] for side in (*lines[:2], *others[:2]))
     length = np.linalg.norm(two - one, axis=1)
-    unit = (two - one) / np.maximum(length, LEAST)[:, None]
+    # A point has a frame as well: it covers no more than what is beside it.
+    unit = np.where(length[:, None] > LEAST, (two - one) / np.maximum(length, LEAST)[:, None], [1.0, 0.0, 0.0])
     across = np.cross(unit, np.eye(3)[np.abs(unit).argmin(axis=1)])
     across /= np.maximum(np.linalg.norm(across, axis=1), LEAST)[:, None]
     frame = np.stack([unit, across, np.cross(unit, across)], axis=1)
