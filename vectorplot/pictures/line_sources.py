@@ -284,23 +284,6 @@ class LineSources:
         """Which parts of framed lines are seen."""
         return seen_parts(self.pipeline, self.view, self.faces, self.solid, lines)
 
-    def elsewhere(
-        self,
-        pipeline: Pipeline,
-        scene: Scene,
-        view: View,
-        faces: ProjectedFaces,
-        kinds: frozenset[LineKind],
-        crease_angle_deg: float,
-        budget: Budget,
-    ) -> LineSources:
-        """What lines of another scene, or another view, are traced on, see traceable."""
-        return traceable(pipeline, scene, view, faces, kinds, crease_angle_deg, budget)
-
-    def balls_alone(self, pipeline: Pipeline, scene: Scene) -> ClosedForms | None:
-        """The balls of a scene in this view without lines of theirs."""
-        return balls(pipeline, scene, self.view, frozenset())
-
 
 def traceable(
     pipeline: Pipeline,

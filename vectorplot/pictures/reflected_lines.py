@@ -10,7 +10,6 @@ from __future__ import annotations
 import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -26,6 +25,7 @@ from vectorplot.geometry.component_arrays import cross, dot
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.projections import Projection
 from vectorplot.geometry.records import IN_COLUMNS, Elements
+from vectorplot.pictures.line_sources import LineSources, balls, traceable
 from vectorplot.pictures.pipeline import Pipeline
 from vectorplot.pictures.plan import plan_draw
 from vectorplot.scene.added_lines import default_light
@@ -40,9 +40,6 @@ from vectorplot.visibility.polyhedra.hidden_lines import Visibility
 from vectorplot.visibility.polyhedra.lines import Lines, in_window, straight_lines
 from vectorplot.visibility.projected_faces import project_faces
 from vectorplot.words import LineKind
-
-if TYPE_CHECKING:
-    from vectorplot.pictures.line_sources import LineSources
 
 Window = tuple[Floats, Floats]
 """A rectangle of the image plane, from one corner (2,) to the other."""
@@ -248,7 +245,7 @@ def seen_beyond(shapes: LineSources, beyond: Beyond, how: Depth) -> tuple[LineSo
     view = view_of(beyond.scene, beyond.projection)
     pipeline = Pipeline(plan_draw(beyond.scene, shapes.kinds, how.hidden, 0.0), None, None)
     faces, wanted = project_faces(view), (shapes.kinds, how.crease_angle_deg, how.budget)
-    sources = shapes.elsewhere(pipeline, beyond.scene, view, faces, *wanted)
+    sources = traceable(pipeline, beyond.scene, view, faces, *wanted)
     lines = sources.before_balls(in_window(view, sources.lines(how.tolerance, how.budget), beyond.window))
     return sources, lines, sources.seen(lines)
 
@@ -338,7 +335,7 @@ def _seen_windows(shapes: LineSources, lines: Lines, window: Window | None, how:
     """The parts of lines on mirrors before which nothing stands."""
     scene = replace(shapes.scene, items=tuple(replace(item, lines=()) for item in shapes.scene.items))
     pipeline, nothing = Pipeline(plan_draw(scene, frozenset(), "none", 0.0), None, None), frozenset[LineKind]()
-    bodies = shapes.balls_alone(pipeline, scene)
+    bodies = balls(pipeline, scene, shapes.view, nothing)
     alone = replace(shapes, pipeline=pipeline, scene=scene, kinds=nothing, straight=lines, balls=bodies)
     every = alone.lines(how.tolerance, how.budget)
     framed = alone.before_balls(in_window(shapes.view, every.take(every.kind == LineKind.REFLECTED), window))

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import warnings
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -25,6 +24,7 @@ from vectorplot.geometry.budget import in_turn, unresolved
 from vectorplot.geometry.component_arrays import cross
 from vectorplot.geometry.projections import Projection
 from vectorplot.geometry.vectors import normalize
+from vectorplot.pictures.line_sources import LineSources
 from vectorplot.pictures.pipeline import Pipeline
 from vectorplot.pictures.plan import plan_draw
 from vectorplot.pictures.reflected_lines import (
@@ -46,9 +46,6 @@ from vectorplot.tolerances import CUT_EDGE_OF_EXTENT, EDGE_ON_SINE
 from vectorplot.visibility.polyhedra.hidden_lines import Visibility
 from vectorplot.visibility.polyhedra.lines import Lines
 from vectorplot.words import LineKind
-
-if TYPE_CHECKING:
-    from vectorplot.pictures.line_sources import LineSources
 
 ALONG = np.array([0.0, 0.0, -1.0])
 """The way of the rays of a parallel picture, in its view."""
