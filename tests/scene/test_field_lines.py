@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import vectorplot as vp
-from vectorplot.errors import InputError
+from vectorplot.errors import InputError, InputWarning
 from vectorplot.features import VectorField
 from vectorplot.io import parse_scene
 from vectorplot.io.scene_writer import write_scene
@@ -108,6 +108,13 @@ def test_items_without_fields_have_no_arrows() -> None:
         field_arrows(vp.Item("SHEET", SHEET), "round")
     with pytest.raises(InputError, match="positive lengths"):
         field_arrows(vp.Item("S", SHEET, fields=FIELDS), "round", apart=-1.0)
+
+
+@pytest.mark.parametrize("way", ['"1/0" 0 0', "0 0 0"])
+def test_a_field_without_vectors_has_no_arrows_and_says_so(way) -> None:
+    with pytest.warns(InputWarning, match="A: no arrows of field"):
+        scene = parse_scene(f"A box 1 1 1\nfield_arrows of A {way}")
+    assert [item.name for item in scene.items] == ["A"]
 
 
 def test_arrows_of_formulas_stand_on_a_surface_wherever_it_is_and_as_the_function_says() -> None:

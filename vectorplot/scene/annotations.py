@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -12,7 +13,7 @@ from numpy.typing import ArrayLike
 from vectorplot.arrays import Floats
 from vectorplot.curves.curve import Curve, is_curve, vector
 from vectorplot.curves.families import Circle, Line
-from vectorplot.errors import InputError
+from vectorplot.errors import InputError, InputWarning
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.mesh import Mesh
@@ -128,7 +129,7 @@ def field_arrows(
 
     Notes
     -----
-    Edge cases: no arrow where the field has no vector or one without length.
+    Edge cases: no arrow where the field has no vector or one without length; InputWarning where that is so everywhere.
 
     Examples
     --------
@@ -159,8 +160,12 @@ def field_arrows(
     _, first = np.unique(cells, axis=0, return_index=True)
     if len(first) > MOST_ARROWS:
         raise InputError(f"arrows of {name}: {len(first)} of them, expected {MOST_ARROWS} or fewer: larger 'apart'")
+    if not len(first):
+        text = f"{item.name}: no arrows of {name}: it has no vectors there, or none with a length"
+        warnings.warn(text, InputWarning, stacklevel=2)
+        return Scene(())
     some = there[np.sort(first)]
-    ways = vectors[some] * (long / float(sizes[some].max())) if len(some) else vectors[some]
+    ways = vectors[some] * (long / float(sizes[some].max()))
     items, labels = [], []
     for number, (start, way) in enumerate(zip(points[some], ways, strict=True), start=1):
         line = thin_line(f"{item.name} {name} {number}", Line.through(start, start + way), f"{item.name} {name}")
