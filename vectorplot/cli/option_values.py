@@ -12,7 +12,7 @@ import click
 
 from vectorplot.errors import InputError
 from vectorplot.pictures.options import OPTIONS
-from vectorplot.words import LINE_WORDS, check_colour, format_hint, line_words
+from vectorplot.words import LINE_WORDS, SUBDIVISIONS, check_colour, format_hint, line_words, nearest
 
 if TYPE_CHECKING:
     from vectorplot.scene.light import Exposure, Light
@@ -334,3 +334,16 @@ def format_of(path: str, given: str | None, known: Sequence[str]) -> str:
         names = ", ".join("." + name for name in known)
         raise click.UsageError(f"{path}: the name must end in {choice}{names}{format_hint(word)}")
     return word
+
+
+def subdivision_scheme(text: str) -> tuple[str, float | None]:
+    """SCHEME[,DEG]: the scheme, and the angle of creases."""
+    word, comma, angle = text.partition(",")
+    if word not in SUBDIVISIONS:
+        near = nearest(word.lower(), SUBDIVISIONS)
+        meant = f"; did you mean {near}?" if near else ""
+        raise click.BadParameter(f"{word!r} is none of {', '.join(SUBDIVISIONS)}{meant}")
+    found = number(angle) if comma else None
+    if found is not None and not 0.0 <= found <= 180.0:
+        raise click.BadParameter(f"a crease angle of {found:g} degrees, expected 0 to 180")
+    return word, found

@@ -41,6 +41,7 @@ from vectorplot.cli.option_values import (
     point,
     said_or_none,
     style,
+    subdivision_scheme,
     tiles,
     upwards,
 )
@@ -311,21 +312,6 @@ class ItemMaterial:
             raise click.BadParameter(error.cause) from None
 
 
-def read_subdivision(text: str) -> tuple[str, float | None]:
-    """SCHEME[,DEG]: the scheme, and the angle of creases."""
-    from vectorplot.words import SUBDIVISIONS, nearest
-
-    word, comma, angle = text.partition(",")
-    if word not in SUBDIVISIONS:
-        near = nearest(word.lower(), SUBDIVISIONS)
-        meant = f"; did you mean {near}?" if near else ""
-        raise click.BadParameter(f"{word!r} is none of {', '.join(SUBDIVISIONS)}{meant}")
-    found = number(angle) if comma else None
-    if found is not None and not 0.0 <= found <= 180.0:
-        raise click.BadParameter(f"a crease angle of {found:g} degrees, expected 0 to 180")
-    return word, found
-
-
 LINE_OPTIONS = (
     click.option(
         "--sections",
@@ -359,7 +345,7 @@ LINE_OPTIONS = (
     ),
     click.option(
         "--subdivision",
-        type=read_subdivision,
+        type=subdivision_scheme,
         metavar="SCHEME[,DEG]",
         help="Limit surfaces of meshes by catmull-clark or loop; edges that turn by more than DEG stay sharp.",
     ),
