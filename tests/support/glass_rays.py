@@ -10,7 +10,19 @@ import sys
 import numpy as np
 
 import vectorplot as vp
-from support.mirror_rays import APART, NEAR, ON_PAGE_MM, Room, met_edge, nearest, on_page, sight, strokes_of, turned_box
+from support.mirror_rays import (
+    APART,
+    NEAR,
+    ON_PAGE_MM,
+    Room,
+    met_edge,
+    nearest,
+    on_page,
+    places_on,
+    sight,
+    strokes_of,
+    turned_box,
+)
 
 KINDS = "contour,boundary,crease"
 
@@ -167,13 +179,7 @@ def unfounded(seed: int, samples: int) -> tuple[int, int]:
     strokes, items = strokes[items > 0], items[items > 0]
     if not len(strokes):
         return 0, 0
-    length = np.hypot(*(strokes[:, 1] - strokes[:, 0]).T)
-    which = random.choice(len(strokes), samples, p=length / length.sum())
-    share = random.uniform(0.0, 1.0, samples)
-    reach = APART * 100.0 / np.maximum(length[which], 1e-9)
-    inside = (share > reach) & (share < 1.0 - reach)
-    which, share = which[inside], share[inside, None]
-    places = strokes[which, 0] + share * (strokes[which, 1] - strokes[which, 0])
+    which, places = places_on(strokes, samples, random)
     start, way = sight(drawing, room, places)
     face, at = block.enters(start, way)
     found, open_ = np.zeros(len(places), dtype=bool), face >= 0

@@ -195,13 +195,7 @@ def unfounded(seed: int, depth: int, samples: int) -> tuple[int, int]:
     strokes, items = reflected_strokes(drawing)
     if not len(strokes):
         return 0, 0
-    length = np.hypot(*(strokes[:, 1] - strokes[:, 0]).T)
-    which = random.choice(len(strokes), samples, p=length / length.sum())
-    share = random.uniform(0.0, 1.0, samples)
-    reach = APART * 100.0 / np.maximum(length[which], 1e-9)
-    inside = (share > reach) & (share < 1.0 - reach)
-    which, share = which[inside], share[inside, None]
-    places = strokes[which, 0] + share * (strokes[which, 1] - strokes[which, 0])
+    which, places = places_on(strokes, samples, random)
     found = np.zeros(len(places), dtype=bool)
     start, way = sight(drawing, room, places)
     for _ in range(depth):
@@ -218,6 +212,18 @@ def unfounded(seed: int, depth: int, samples: int) -> tuple[int, int]:
             break
         start = np.where(on[:, None], start, 1e9)
     return int((~found).sum()), len(found)
+
+
+def places_on(strokes: np.ndarray, samples: int, random: np.random.Generator) -> tuple[np.ndarray, np.ndarray]:
+    """The strokes (n,2,2) that places evenly along all of them are on, and the places, those near ends left out."""
+    length = np.hypot(*(strokes[:, 1] - strokes[:, 0]).T)
+    which = random.choice(len(strokes), samples, p=length / length.sum())
+    share = random.uniform(0.0, 1.0, samples)
+    reach = APART * 100.0 / np.maximum(length[which], 1e-9)
+    inside = (share > reach) & (share < 1.0 - reach)
+    which, share = which[inside], share[inside, None]
+    places = strokes[which, 0] + share * (strokes[which, 1] - strokes[which, 0])
+    return which, places
 
 
 def sight(drawing: vp.Drawing, room: Room, places: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
