@@ -8,14 +8,13 @@ from pathlib import Path
 
 import vectorplot as vp
 from vectorplot.geometry import box
-from vectorplot.scene import Colouring, ScaleBar
 from vectorplot.surfaces import Torus
 
-BAR = ScaleBar("nm", size_mm="8pt")
+BAR = vp.ScaleBar("nm", size_mm="8pt")
 
 
 def main(folder: Path) -> None:
-    classes = Colouring("z", at=(-1.0, -0.5, 0.0, 0.5), over="red", label="$z$ in nm", size_mm="8pt")
+    classes = vp.Colouring("z", at=(-1.0, -0.5, 0.0, 0.5), over="red", label="$z$ in nm", size_mm="8pt")
     ring = vp.Scene((vp.Item("RING", Torus(3.0, 1.0)),), colouring=classes, scale_bar=BAR)
     vp.save(vp.paint(ring, "iso", page="scale 8:1", text="real"), folder / "journal_figure_classes.png")
     shapes = box((3.0, 2.0, 2.0)), Torus(1.5, 0.5), box((2.0, 2.0, 3.0))

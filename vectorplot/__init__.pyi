@@ -46,6 +46,7 @@ from .scene.light import Light
 from .scene.material import Material
 from .scene.page import Page
 from .scene.plots import graph, surface, tube
+from .scene.scales import Colouring, ScaleBar
 from .scene.scene import Scene
 from .scene.subdivided import subdivided
 from .scene.surface_lines import Section, SurfaceLines
@@ -61,6 +62,7 @@ __all__ = [
     "Animation",
     "AtVertex",
     "Camera",
+    "Colouring",
     "Drawing",
     "Film",
     "Hatching",
@@ -82,6 +84,7 @@ __all__ = [
     "Paths",
     "Pattern",
     "Pen",
+    "ScaleBar",
     "Scene",
     "Section",
     "Sheet",

@@ -22,7 +22,8 @@ def read(
     ----------
     path : str or path
         A mesh (obj, stl, ply, off, glb, vtk, vtu), parts of a CAD system (step, iges, brep), a molecule (xyz, pdb,
-        cif), a terrain (asc, xyz), a drawing (json), or a text in the scene language (any other suffix).
+        cif), a terrain (asc, xyz), a drawing (json), or a text in the scene language (any other suffix). What is not
+        found is looked for in data/, then among the files that come with the package, as "data/house.scene" or "house".
     exaggeration : float, optional
         What heights of a terrain are multiplied with. Where None they are left as they are, unless they would be seen
         as a plain or a needle: then they are made 1, 2 or 5 times a power of ten higher, and a warning says so.

@@ -38,7 +38,10 @@ FORMATS = tuple(_BACKENDS)
 _SCENE = "scene"
 """The one format of scenes."""
 
-_TEXTS = ("svg", "ps", "eps", "tex", "dxf", "json", _SCENE)
+MESHES = ("stl", "obj", "ply", "off")
+"""The formats of meshes, for whatever has faces."""
+
+_TEXTS = ("svg", "ps", "eps", "tex", "dxf", "json", "obj", "off", _SCENE)
 """The formats that text files take."""
 
 
@@ -68,20 +71,19 @@ class Frames(Protocol):
         ...
 
 
-def save(
-    drawing: Drawing | Image | Scene | Frames | Sequence[Drawing], path: Destination, *, format: str | None = None
-) -> None:
-    """Write a drawing, a picture of pixels, a scene or a film in the format of the suffix, or in a named one.
+def save(drawing: Any, path: Destination, *, format: str | None = None) -> None:
+    """Write a drawing, a picture of pixels, a scene, a mesh or a film in the format of the suffix, or in a named one.
 
     Parameters
     ----------
-    drawing : Drawing, Image, Scene, Film or sequence of Drawing
+    drawing : Drawing, Image, Film, sequence of Drawing, or what the verbs take
         What is written: a drawing as svg, ps, eps, pdf, png, tex (PGF/TikZ, for LaTeX), dxf or json; a picture of
-        pixels as png; a scene as scene, a text in the scene language; a film as pdf, svg, mp4, webm, gif or vd1, or
-        into a folder, as `vp.save_frames` writes it; several drawings, such as sheets, as the pages of one pdf.
+        pixels as png; a Scene, Item, Mesh or surface, or a list of these, as a mesh for other programs: stl, obj, ply
+        or off, or as scene, a text in the scene language; a film as pdf, svg, mp4, webm, gif or vd1, or into a folder,
+        as `vp.save_frames` writes it; several drawings, such as sheets, as the pages of one pdf.
     path : str, path or file object
         The file, whose suffix says the format; or an open file, which is not closed: a binary one, or a text file for
-        svg, ps, eps, tex, dxf, json and scene.
+        svg, ps, eps, tex, dxf, json, obj, off and scene.
     format : str, optional
         In place of the suffix; needed for a file object. Of a film in a folder that of its files.
 
@@ -89,15 +91,18 @@ def save(
     ------
     InputError
         For an unknown suffix or format or one that is not for such a thing, for a file object without a format, a
-        text file that cannot hold it, for what page_marks.sheet refuses, and for shapes of a scene that the language
-        has no word for.
+        text file that cannot hold it, for what page_marks.sheet refuses, for shapes of a scene that the language
+        has no word for, and for a mesh format where there are no faces.
+    TypeError
+        For what is none of these.
     OSError
         Where the file cannot be written; it names the path.
 
     Notes
     -----
     The file is written whole or not at all; an old one stays until the new one is complete. A file object is given all
-    at once, when the picture is complete.
+    at once, when the picture is complete. Meshes have the units of the scene and its axes, z upwards; smooth surfaces
+    become triangles that are off by a part of 0.00005 of the whole at most; curves, cuts and lights are left out.
 
     Examples
     --------
@@ -111,6 +116,8 @@ def save(
     >>> again.items
     ('triangle',)
     >>> import io
+    >>> solid = io.BytesIO()
+    >>> vp.save(triangle, solid, format="stl")
     >>> answer = io.BytesIO()
     >>> vp.save(drawing, answer, format="svg")
     >>> answer.getvalue()[:5]
@@ -120,14 +127,14 @@ def save(
         drawing.save(path, format=format)
         return
     word = format_for(path, format)
-    if isinstance(drawing, Sequence):
+    if isinstance(drawing, Sequence) and word.lower() not in (*MESHES, _SCENE):
         if word.lower() != "pdf" or not drawing:
             raise InputError("several drawings are the pages of a .pdf; one at least", file=name_of(path))
         from vectorplot.backends.cairo import pdf_pages_bytes
 
         put(path, pdf_pages_bytes(drawing, drawing[0].title))
         return
-    if format is None and word.lower() not in (*_BACKENDS, _SCENE):
+    if format is None and word.lower() not in (*_BACKENDS, *MESHES, _SCENE):
         known = f"known are .{', .'.join(FORMATS)}{format_hint(word)}"
         raise InputError(f"unknown suffix {'.' + word if word else ''!r}; {known}", file=name_of(path))
     put(path, write(drawing, word))
@@ -189,20 +196,23 @@ def write_for_latex(drawing: Drawing, format: str, name: str) -> tuple[bytes, by
     return picture, overlay_bytes(drawing, name)
 
 
-def write(drawing: Drawing | Image | Scene, format: str) -> bytes:
+def write(drawing: Any, format: str) -> bytes:
     """The drawing as the content of a file: svg, ps, eps, pdf, png (at 150 dpi), tex, dxf or json; a picture of pixels
-    as png; a scene as scene.
+    as png; a scene or whatever has a shape as stl, obj, ply, off or scene.
 
-    Same drawing, same bytes. Errors: InputError for an unknown format and for what page_marks.sheet refuses.
+    Same drawing, same bytes. Errors: InputError for an unknown format and for what page_marks.sheet refuses; TypeError.
     """
-    if format.lower() not in (*_BACKENDS, _SCENE):
+    word = format.lower()
+    if word not in (*_BACKENDS, *MESHES, _SCENE):
         raise InputError(f"unknown format {format!r}; known are {', '.join(FORMATS)}{format_hint(format)}")
-    if isinstance(drawing, Scene):
-        return _scene_text(drawing, format)
-    if format.lower() == _SCENE:
+    if not isinstance(drawing, Drawing | Image):
+        return _shapes(drawing, word)
+    if word == _SCENE:
         raise InputError("only a scene is written as scene")
+    if word in MESHES:
+        raise InputError(f"a picture has no faces: {word} is written of a scene, item, mesh or surface")
     if isinstance(drawing, Image):
-        if format.lower() != "png":
+        if word != "png":
             raise InputError(f"a picture of pixels is written as png, not as {format}")
         return drawing.png()
     return backend(format)(drawing)
@@ -215,12 +225,23 @@ def backend(format: str) -> Callable[[Drawing], bytes]:
     return found
 
 
-def _scene_text(scene: Scene, format: str) -> bytes:
-    if format.lower() != _SCENE:
-        raise InputError(f"a scene is written as scene, not as {format}: draw, paint or render it first")
-    from vectorplot.io.scene_writer import write_scene
+def _shapes(shown: Any, format: str) -> bytes:
+    """What has a shape as a scene or a mesh."""
+    from vectorplot.io.anything import scene_of
 
-    return write_scene(scene).encode("ascii")
+    scene = scene_of(shown)
+    if format == _SCENE:
+        from vectorplot.io.scene_writer import write_scene
+
+        return write_scene(scene).encode("ascii")
+    if format not in MESHES:
+        what = "scene" if isinstance(shown, Scene) else type(shown).__name__
+        known = f"as {', '.join((_SCENE, *MESHES))}, not as {format}"
+        raise InputError(f"a {what} is written {known}: draw, paint or render it first")
+    from vectorplot.io.mesh_writer import mesh_bytes
+    from vectorplot.shading.facet_resolution import as_meshes
+
+    return mesh_bytes([(item.name, item.mesh) for item in as_meshes(scene).items], format)
 
 
 # What is shown in a page, of the viewer or of a notebook.

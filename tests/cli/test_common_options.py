@@ -53,7 +53,7 @@ def definitions(name):
 
 
 def test_the_verbs_that_make_pictures_are_these():
-    assert set(PARAMS) == {"draw", "paint", "render", "sheet", "contact-sheet", "develop"}
+    assert set(PARAMS) == {"draw", "paint", "render", "sheet", "contact-sheet", "develop", "convert"}
     assert {verb.name for verb in CAMERA_VERBS} == {"draw", "paint", "render"}
     assert {"scene_file", "out", "eye", "view", "page", "fit", "lines", "tolerance_mm", "budget", "quiet"} <= set(
         SHARED

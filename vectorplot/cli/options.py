@@ -118,6 +118,8 @@ EXPLODE = click.option(
     help="Parts moved apart along x, y, z or X,Y,Z; z,1.5 is z. Or a part, NAME=X,Y,Z; repeat it for more.",
 )
 
+UNION = click.option("--union", is_flag=True, help="Solids that touch or overlap, and look alike, are one body.")
+
 CUT_OPTIONS = (
     click.option(
         "--cut",
@@ -137,7 +139,7 @@ CUT_OPTIONS = (
     CUT_SPACING,
     click.option("--cut-angle", type=number, default=45.0, metavar="DEG", help="Of these strokes, from what is level."),
     EXPLODE,
-    click.option("--union", is_flag=True, help="Solids that touch or overlap, and look alike, are one body."),
+    UNION,
 )
 
 
@@ -364,7 +366,7 @@ LINE_OPTIONS = (
         "--colour-range", type=ascending, metavar="LOW,HIGH", help="Numbers of the first and the last colour."
     ),
     click.option("--colour-classes", type=ascending, metavar="N,N,...", help="A colour from each limit to the next."),
-    click.option("--colour-log", is_flag=True, help="Equal ratios have equal steps."),
+    click.option("--colour-logarithmic", is_flag=True, help="Equal ratios have equal steps."),
     click.option("--colour-under", type=colour_word, metavar="COLOUR", help="Of numbers below those with colours."),
     click.option("--colour-over", type=colour_word, metavar="COLOUR", help="Of numbers above those with colours."),
     click.option("--colour-title", metavar="TEXT", help="At the bar; $...$ is a formula.  [default: what they are by]"),
@@ -402,7 +404,7 @@ class LineOptions:
     colour_steps: int | None = None
     colour_range: tuple[float, ...] | None = None
     colour_classes: tuple[float, ...] | None = None
-    colour_log: bool = False
+    colour_logarithmic: bool = False
     colour_under: str | None = None
     colour_over: str | None = None
     colour_title: str | None = None
@@ -483,7 +485,7 @@ class LineOptions:
         low, high = self.colour_range or (None, None)
         told = {
             **{"colour_map": self.colour_map, "steps": self.colour_steps, "low": low, "high": high},
-            **{"at": self.colour_classes, "logarithmic": self.colour_log or None, "under": self.colour_under},
+            **{"at": self.colour_classes, "logarithmic": self.colour_logarithmic or None, "under": self.colour_under},
             **{"over": self.colour_over, "label": self.colour_title, "size_mm": self.colour_size},
             **{"is_lit": False if self.unlit else None},
         }

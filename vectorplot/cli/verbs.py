@@ -14,6 +14,7 @@ COMMANDS = {
     "draw": "draw",
     "paint": "paint",
     "info": "info",
+    "convert": "convert",
     "render": "render",
     "sheet": "sheet",
     "develop": "develop",

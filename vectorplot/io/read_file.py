@@ -104,10 +104,11 @@ def read(
     (xyz, pdb, cif), a terrain (asc, xyz), or the scene language (any other suffix). exaggeration: factor of a terrain's
     heights; where None, extreme heights are scaled by 1, 2 or 5 times a power of ten, with an InputWarning. tolerance:
     of parts. molecules: see molecule_scene. A mesh file gives one item, or one for each object or node. Meshes are
-    repaired (see mesh_repair.repaired), reported in one InputWarning a file.
+    repaired (see mesh_repair.repaired), reported in one InputWarning a file. The file is found as named_files.data_file
+    has it.
     Errors: InputError, one line with file, line and cause; a file of another kind is named as such.
     """
-    path = Path(path)
+    path = Path(data_file_or_name(os.fspath(path)))
     check_file(path)
     is_molecule = path.suffix.lower() in MOLECULE_SUFFIXES and not _is_terrain(path)
     if molecules is not None and not is_molecule:
@@ -179,14 +180,14 @@ def read_named(
     tolerance: float | None = None,
     molecules: str | None = None,
 ) -> Scene:
-    """The scene in the file of a name, as io.read_file.read has it, found as io.named_files.data_file has it; of the
+    """The scene in the file of a name, as io.read_file.read has it; of the
     name ``-`` the one in the scene language on standard input, in which names of files are relative to the folder that
     one is in.
 
     Errors: InputError as in read; for a text that is empty, larger than 64 MiB, not UTF-8 or something else.
     """
     if name != STANDARD_INPUT:
-        return read(data_file_or_name(name), exaggeration=exaggeration, tolerance=tolerance, molecules=molecules)
+        return read(name, exaggeration=exaggeration, tolerance=tolerance, molecules=molecules)
     from vectorplot.io.scene_language import MAX_FILE_BYTES, parse_scene
 
     if exaggeration is not None:

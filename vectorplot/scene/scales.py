@@ -142,8 +142,7 @@ class ScaleBar:
     --------
     >>> import vectorplot as vp
     >>> from vectorplot.geometry import box
-    >>> from vectorplot.scene import ScaleBar
-    >>> block = vp.Scene((vp.Item("block", box((30, 20, 10))),), scale_bar=ScaleBar("nm"))
+    >>> block = vp.Scene((vp.Item("block", box((30, 20, 10))),), scale_bar=vp.ScaleBar("nm"))
     >>> [layer.name for layer in vp.draw(block, "front").layers][-1]
     'scale bar'
     """

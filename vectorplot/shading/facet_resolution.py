@@ -33,6 +33,7 @@ from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.boxes import PAIRS_AT_ONCE
 from vectorplot.geometry.budget import USUAL, Budget, in_turn, slices, unresolved
 from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.mesh_repair import repaired
 from vectorplot.geometry.polygon_cuts import planes_of
 from vectorplot.geometry.projections import Projection
 from vectorplot.geometry.vectors import all_components, component_sum, cross, norm
@@ -46,7 +47,7 @@ from vectorplot.shading.illumination import finish_of, homogeneous_light, toward
 from vectorplot.shading.painted_colours import Lighting, corner_shades_of, smooth_faces
 from vectorplot.shading.shaded_faces import TrueNormals, point_shades, unit, view_eye, view_lights
 from vectorplot.surfaces.surface import is_implicit, is_parametrised
-from vectorplot.tolerances import ROUNDING
+from vectorplot.tolerances import ROUNDING, ULP, USUAL_PART_TOLERANCE
 from vectorplot.visibility.painter.image_faces import view_points
 from vectorplot.visibility.projected_faces import body_sides, newell
 
@@ -318,6 +319,15 @@ class Coarse(AllSidesAlike):
         """(k,n) as Criterion."""
         distance = np.array(self.distances)[surface_numbers(edges.start.places)]
         return np.asarray(off_chords(edges) / (INSIDE * distance))
+
+
+def as_meshes(scene: Scene) -> Scene:
+    """The scene with meshes in place of smooth surfaces, turned outwards where they are closed, that are off by a part
+    of USUAL_PART_TOLERANCE of the diagonal of the whole at most. Errors: see faceted."""
+    fine = Coarse((USUAL_PART_TOLERANCE * float(norm(scene.bounds[1] - scene.bounds[0])),))
+    found = zip(scene.items, faceted(scene, lambda _: fine).scene.items, strict=True)
+    items = [replace(own, shape=repaired(own.mesh, ULP)[0]) if _is_smooth(item) else own for item, own in found]
+    return replace(scene, items=tuple(items))
 
 
 @dataclass(frozen=True, eq=False)
