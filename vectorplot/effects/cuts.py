@@ -654,12 +654,18 @@ def _faces_of_cuts(
     faced = [k for k in range(len(bodies)) if any(not areas[k].is_empty for areas in faces)]
     if not faced:
         return []
-    areas = [[every[k] for k in faced] for every in faces]
+    # Bodies of one group are one part.
+    parts: dict[str | int, list[int]] = {}
+    for k in faced:
+        parts.setdefault(bodies[k].item.group or k, []).append(k)
+    part = {k: number for number, own in enumerate(parts.values()) for k in own}
+    areas = [[shapely.union_all([every[k] for k in own]) for own in parts.values()] for every in faces]
     ways = ways_of_parts(areas, nothing_beside(scene.bounds))
-    own = [[turned(scene.cuts[one], way) for way in ways] for one, _ in planes]
-    spacings = spacings_in_space(frames, areas, own, in_space, camera)
+    turns = [[turned(scene.cuts[one], way) for way in ways] for one, _ in planes]
+    spacings = spacings_in_space(frames, areas, turns, in_space, camera)
     result = []
-    for number, (k, way) in enumerate(zip(faced, ways, strict=True)):
+    for k in faced:
+        number, way = part[k], ways[part[k]]
         shown = [n for n, every in enumerate(faces) if not every[k].is_empty]
         for count, n in enumerate(shown):
             name = f"{bodies[k].item.name} cut" + (f" {count + 1}" if count else "")

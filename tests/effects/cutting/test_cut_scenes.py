@@ -312,3 +312,18 @@ def test_a_cut_that_takes_everything_away_is_named(text, named):
     cube = vp.Scene((vp.Item("cube", vp.Mesh.from_triangles(np.eye(3), [(0, 1, 2)])),))
     with pytest.warns(vp.InputWarning, match=f"the cut .*{named}.* takes everything away"):
         vp.draw(vp.cut(cube, text), vp.Camera((4, -5, 3)))
+
+
+def test_bodies_of_one_group_are_hatched_alike_and_their_neighbours_otherwise():
+    wide, narrow, beside = (box((x, 8, 20)).moved(at, 0, 0) for x, at in ((40, 0), (3, 40), (40, 43)))
+    parts = [vp.Item("plate", wide, group="FLANGE"), vp.Item("rim", narrow, group="FLANGE"), vp.Item("lid", beside)]
+    faces = cut_scene(vp.cut(vp.Scene(tuple(parts)), "y = 4"), "front").items[3:]
+    ways = []
+    for face in faces:
+        (section,) = face.curves.sections
+        ways.append((np.round(section.normal, 9).tolist(), round(np.diff(section.offsets).mean(), 9)))
+    plate, rim, lid = ways
+    assert plate == rim and plate[0] != lid[0]
+    # Strokes go on from body to body.
+    starts = [np.array(face.curves.sections[0].offsets) / plate[1] for face in faces[:2]]
+    assert np.ptp(np.concatenate(starts) % 1.0) == pytest.approx(0.0, abs=1e-6)
