@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from importlib import import_module
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 
@@ -770,6 +770,9 @@ BESIDE_MM = 22.0
 TITLE_TIMES = 1.2
 """The letters of the title as a multiple of those of numbers."""
 
+TITLE_BEHIND = 1.0
+"""From the numbers to a title that runs along the bar, in heights of their capitals."""
+
 END = 0.8
 """The height of the tips that show colours of what is beyond, as a part of the width of the bar."""
 
@@ -825,11 +828,13 @@ def with_colour_bar(
     text: str = "strokes",
     margin_mm: float = BAR_GAP_MM,
 ) -> Drawing:
-    """The drawing on a page so wide, with the bar in the strip beside it, which its margin is beside.
+    """The drawing on a page so wide, with the bar in the strip beside it, which its margin is beside. Fills of bands
+    become those of their bodies.
 
     paper: the colour of the strip, where the drawing has some behind it; longest_mm: longer strokes leave in parts;
     text: a word of LETTERS.
     """
+    drawing = _with_fills_of_bodies(drawing, bar.bands)
     begin, own = drawing.width_mm, bar.colouring
     unit = (width_mm - begin) / _natural_mm(own, margin_mm) * own.capitals_mm / BAR_LETTERS_MM
     left = begin + unit * max(BAR_GAP_MM - margin_mm, 0.0)
@@ -855,13 +860,31 @@ def with_colour_bar(
         above = high + size + (0.0 if own.over is None else tip)
         texts.append(_letters(text, own.title, (left, above), TITLE_TIMES * size, "left", "base"))
     elif own.title:
-        behind = left + unit * BESIDE_MM, 0.5 * (low + high)
+        numbers = max((float(one.bounds[1, 0]) for one in texts), default=right + unit * TICK_MM)
+        behind = numbers + (TITLE_BEHIND + 0.5 * TITLE_TIMES) * size, 0.5 * (low + high)
         texts.append(_letters(text, own.title, behind, TITLE_TIMES * size, "centre", "middle", 90.0))
     lines += [one.strokes[k] for one in texts for k in range(len(one.strokes))]
     marks.append(_strokes(lines, drawing.page_from_world, longest_mm))
     set_ = Texts.joined([one.texts for one in texts])
     layer = Layer("colour bar", PEN, (*marks, *([set_] if len(set_) else [])))
     return replace(drawing, width_mm=width_mm, layers=(*drawing.layers, layer))
+
+
+def _with_fills_of_bodies(drawing: Drawing, bands: Sequence[tuple[str, tuple[str, ...]]]) -> Drawing:
+    """The drawing with the bodies of bands among its items, and bands filled as parts of them: of one item, they reach
+    under each other."""
+    body_of = {band: number for number, (_, own) in enumerate(bands, len(drawing.items)) for band in own}
+    item = np.array([body_of.get(name, number) for number, name in enumerate(drawing.items)], dtype=np.intp)
+    if not len(item):
+        return drawing
+
+    def of_bodies(mark: Any) -> Any:
+        return (
+            replace(mark, item=np.where(mark.item < 0, mark.item, item[mark.item])) if isinstance(mark, Fills) else mark
+        )
+
+    layers = tuple(replace(layer, marks=tuple(map(of_bodies, layer.marks))) for layer in drawing.layers)
+    return replace(drawing, layers=layers, items=(*drawing.items, *(name for name, _ in bands)))
 
 
 def _letters(

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import io
+import subprocess
 from dataclasses import replace
 from itertools import combinations
 
 import numpy as np
 import pytest
 import shapely
+from PIL import Image
+from scipy import ndimage
 
 import vectorplot as vp
 from vectorplot.drawing import typeset
@@ -29,7 +33,7 @@ from vectorplot.save import write
 from vectorplot.scene import BoxAxes, Colouring, terrain_scene
 from vectorplot.scene.labels import capital_height
 from vectorplot.scene.page import in_latex
-from vectorplot.surfaces import Sphere
+from vectorplot.surfaces import Sphere, Torus
 
 CUBE = vp.Scene((vp.Item("CUBE", solid_box((2.0, 2.0, 2.0))),))
 SQUARE = vp.Scene(
@@ -405,3 +409,38 @@ def test_all_words_are_written_as_they_are_read(text):
 def test_what_is_wrong_with_bars_is_told(text, told):
     with pytest.raises(InputError, match=told):
         parse_scene(f"BOX gray box 1 2 3\n{text}")
+
+
+def test_a_long_title_stands_close_behind_the_numbers():
+    long = Colouring("z", label="height above the table")
+    drawing = vp.draw(replace(CUBE, colouring=long), "front", page="297x210", text="real")
+    (texts,) = drawing.layers[-1].texts
+    turned = texts.turn_deg == 90.0
+    numbers = (texts.points[:, 0] + texts.room_mm)[~turned].max()
+    # Letters that are turned have their base line at the right.
+    assert numbers < texts.points[turned, 0].item() < numbers + 3.0 * long.capitals_mm
+
+
+RING = vp.Scene((vp.Item("RING", Torus(3.0, 1.0)),), camera=vp.Camera((9.0, -12.0, 8.0)))
+
+
+@pytest.mark.slow
+def test_bands_are_filled_as_parts_of_their_body():
+    drawing = vp.paint(replace(RING, colouring=Colouring("z", steps=4)), page="60x40")
+    of_scene = np.concatenate([fills.item for fills in drawing.layers[0].fills])
+    assert {drawing.items[k] for k in np.unique(of_scene)} == {"RING"}
+
+
+@pytest.mark.slow
+def test_nothing_shines_through_between_bands_of_lit_surfaces():
+    """In a picture on white and on black paper all pixels but those at the outlines are the same."""
+    svg = write(vp.paint(replace(RING, colouring=Colouring("z")), page="148x105"), "svg")
+    shown = [
+        subprocess.run(("rsvg-convert", "-b", paper), input=svg, capture_output=True, check=True).stdout
+        for paper in ("white", "black")
+    ]
+    white, black = (np.asarray(Image.open(io.BytesIO(png)).convert("RGB")).astype(int) for png in shown)
+    through = np.abs(white - black).max(axis=2)
+    inside = ndimage.binary_erosion(through < 200, iterations=3)
+    assert inside.mean() > 0.2
+    assert (through[inside] > 8).mean() < 2e-3 and through[inside].max() < 30
