@@ -55,7 +55,7 @@ def polyhedron_union(bodies: Sequence[Mesh]) -> Mesh:
     -----
     Convex bodies are united by their planes: of the faces in a plane stays what is covered neither by sections of
     other bodies nor by faces that look the other way. Bodies that are not convex are left to manifold3d, and what comes
-    of it is joined plane by plane.
+    of it is joined plane by plane, or left in triangles where bodies touch so nearly that this does not close.
 
     Edge cases: a single body stays as it is; no body is a mesh without faces; bodies that touch in a point, along an
     edge or not at all stay pieces of one mesh; distances below 1e-9 of the extent are zero.
@@ -78,14 +78,18 @@ def polyhedron_union(bodies: Sequence[Mesh]) -> Mesh:
         raise InputError(f"body {number} of {len(bodies)} is not closed: only closed bodies are united")
     if not stack.mesh.face_count:
         return stack.mesh
-    planes = _Planes.of(stack)
+    planes, whole = _Planes.of(stack), None
     if stack.are_convex:
         regions, plane, turned = planes.outer_regions()
     else:
-        stack = _Stack.of([_by_manifold(stack)])
+        whole = _by_manifold(stack)
+        stack = _Stack.of([whole])
         planes = _Planes.of(stack)
         regions, plane, turned = planes.regions()
     found = _Outline.of(planes, regions, plane, turned).mesh()
+    if not found.is_closed and whole is not None and whole.is_closed:
+        # Faces so thin that they do not tell which plane they are in: they stay as manifold3d has made them.
+        return whole
     if not found.is_closed:
         raise InputError("union: bodies so nearly touch that coordinates do not tell what lies in what")
     return stack.placed(found)
