@@ -63,3 +63,12 @@ def test_a_tube_needs_a_radius_and_a_curve_that_goes_on():
     for radius in (0.0, -1.0, np.nan):
         with pytest.raises(vp.InputError, match="radius"):
             vp.tube(Circle(), radius)
+
+
+@pytest.mark.parametrize("size", [1e-6, 1.0, 1e6])
+def test_a_tube_about_points_that_come_back_is_a_ring_whatever_rounding_left(size):
+    turn = np.linspace(0.0, 2.0 * np.pi, 25)
+    points = size * np.stack([3.0 * np.cos(turn), 3.0 * np.sin(turn), 0.0 * turn], axis=1)
+    assert (points[0] != points[-1]).any()
+    assert vp.tube(points, 0.5 * size).shape.domain.closed_v
+    assert not vp.tube(points[:-1], 0.5 * size).shape.domain.closed_v

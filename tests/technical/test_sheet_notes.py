@@ -226,6 +226,23 @@ def test_what_a_scene_says_of_its_sheet_is_what_the_arguments_say():
     assert scene.sheet.said["fields"] == (("MATERIAL", "S235"),)
 
 
+@pytest.mark.slow
+def test_hidden_lines_of_sheets_are_dashed_or_left_out(tmp_path):
+    text = "PART translation base_points 0 0 0, 40 0 0, 40 20 0, 0 20 0 trans_vector 0 0 10 bore 20 10 0 4"
+    (dashed, none), said = (
+        [vp.technical_sheet(parse_scene(text), views="front", hidden=word) for word in (None, "none")],
+        vp.technical_sheet(parse_scene(f"{text}\nsheet hidden none"), views="front"),
+    )
+    assert "hidden" in {layer.name for layer in dashed.layers if layer.strokes}
+    assert "hidden" not in {layer.name for layer in none.layers if layer.strokes}
+    assert_drawings_equal(none, said)
+    (tmp_path / "a.scene").write_text(text)
+    assert run(["sheet", str(tmp_path / "a.scene"), "-o", str(tmp_path / "a.svg"), "--hidden", "none"]) == 0
+    assert "hidden" not in (tmp_path / "a.svg").read_text(encoding="utf-8")
+    with pytest.raises(vp.InputError, match="hidden"):
+        vp.technical_sheet(parse_scene(text), hidden="dotted")
+
+
 def test_fields_of_the_command_are_beside_those_of_the_scene(tmp_path):
     path = tmp_path / "part.scene"
     path.write_text('PART box 4 2 1\nsheet field "MATERIAL" "S235" field "MASS" "1 kg"', encoding="utf-8")

@@ -1119,7 +1119,7 @@ FACE_OPTIONS = (
 
 # Options for how strokes look: a style, hidden lines, pens and dashes.
 
-_STYLE, _HIDDEN, _PEN, _DASH = (
+_STYLE, HIDDEN_LINES, _PEN, _DASH = (
     click.option(
         "--style",
         type=style,
@@ -1130,7 +1130,7 @@ _STYLE, _HIDDEN, _PEN, _DASH = (
     click.option(
         "--hidden",
         type=of_option("hidden"),
-        help="How hidden lines look.  [default: none, or what the style says]",
+        help="How hidden lines look.  [default: none, or what the style says; of sheets dashed]",
     ),
     click.option(
         "--pen",
@@ -1151,7 +1151,7 @@ _STYLE, _HIDDEN, _PEN, _DASH = (
         help="Dashes of the same, in mm or with units (8pt,3pt), or none; repeat it for more.",
     ),
 )
-STROKE_OPTIONS = (_STYLE, _HIDDEN, _PEN, _DASH)
+STROKE_OPTIONS = (_STYLE, HIDDEN_LINES, _PEN, _DASH)
 """Of lines where faces are not filled."""
 
 OVERLAID_OPTIONS = (_STYLE, _PEN, _DASH)

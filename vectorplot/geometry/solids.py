@@ -416,7 +416,7 @@ def _profile(meridian: ArrayLike, order: int, angle_deg: float) -> _Profile:
     points = points[changes]
     if len(points) < 2:
         raise InputError("a meridian needs at least two different points")
-    closed = len(points) > 3 and bool((points[0] == points[-1]).all())
+    closed = len(points) > 3 and bool(norm(points[0] - points[-1]) <= zero_distance(points))
     points = points[:-1].copy() if closed else points
     extent = max(float(np.abs(points[:, :2]).max()), float(np.ptp(points[:, 2])))
     on_axis = np.hypot(points[:, 0], points[:, 1]) <= ZERO_OF_EXTENT * extent

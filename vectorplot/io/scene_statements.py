@@ -276,6 +276,7 @@ _SHEET_CHOICES = {
     "projection": ("first", "third"),
     "unit": ("mm", "cm", "m", "in"),
     "measured_in": ("mm", "cm", "m", "in"),
+    "hidden": ("none", "dashed", "solid"),
 }
 _SHEET_PAIRS = {"field": "fields", "made_of": "made_of"}
 _SHEET_OTHERS = ("views", "scale", "page", *_SHEET_PAIRS, "block_template")

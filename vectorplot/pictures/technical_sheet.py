@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from itertools import product
-from typing import Any, Literal
+from typing import Any, Literal, cast, get_args
 
 import numpy as np
 
@@ -116,7 +116,7 @@ SEAM_MM = 4.0
 """How far the centre line of a half section goes on beyond the part."""
 
 
-Hidden = Literal["none", "dashed"]
+Hidden = Literal["none", "dashed", "solid"]
 Curves = Literal["bezier", "polyline"]
 
 
@@ -274,12 +274,14 @@ class _Part:
 class _Views:
     """The views of a part at a scale, as drawings on pages of their own; factor: mm on paper for a unit of the world.
 
-    options: those of draw for every view; spacing_mm: of hatches, see cut.
+    hidden: what becomes of hidden lines in main views; options: those of draw for every view; spacing_mm: of hatches,
+    see cut.
     """
 
     part: _Part
     factor: float
     spacing_mm: float | None
+    hidden: Hidden
     options: Mapping[str, Any]
 
     def drawing(self, view: SheetView, notes: Sequence[Scene]) -> Drawing:
@@ -305,7 +307,7 @@ class _Views:
         return next((one for one in self.part.sections if one.letter == view.name), None)
 
     def _hidden(self, view: SheetView) -> Hidden:
-        return "dashed" if view.name in self.part.names and view.name != "iso" else "none"
+        return self.hidden if view.name in self.part.names and view.name != "iso" else "none"
 
     def _cut_scene(self, view: SheetView) -> Scene:
         """The part, in a section behind its plane."""
@@ -410,7 +412,7 @@ class _Views:
             zone = section.zone_at(one.centre)
             scene = section.shown(scene, zone)
             scene = scene if zone.offset is None else larger._cut(scene, section.condition(zone), camera)
-        hidden: Hidden = "none" if section is not None or one.view == "iso" else "dashed"
+        hidden: Hidden = "none" if section is not None or one.view == "iso" else self.hidden
         drawn = larger._drawn(scene, moved, page, notes, hidden, curves="polyline")
         ring = one.ring(np.full(2, radius + 0.5), radius)
         inner = _of_strokes(drawn, partial(inside_ring, ring=ring))
@@ -609,6 +611,7 @@ def technical_sheet(
     balloons: bool | None = None,
     parts_list: bool | None = None,
     made_of: Mapping[str, str] | None = None,
+    hidden: Hidden | None = None,
     text: Literal["strokes", "real"] = "strokes",
     crease_angle_deg: float = 25.0,
     shortest_mm: float | None = None,
@@ -686,6 +689,8 @@ def technical_sheet(
         part, those whose names differ by a number at the end and that have one shape are the same.
     made_of : mapping of str to str, optional
         The materials of parts, by their names: a column of that list.
+    hidden : {"none", "dashed", "solid"}, optional
+        See draw, of main views; where None dashed.
     text : {"strokes", "real"}
         See draw.
     crease_angle_deg : float
@@ -755,11 +760,13 @@ def technical_sheet(
         block_template=None if block_template is None else os.fspath(block_template),
         balloons=balloons,
         parts_list=parts_list,
+        hidden=hidden,
     )
     told = asked.or_else(of_scene).or_else(USUAL)
     names = _view_names(told.views or ())
     check_word("standard", told.standard, STANDARDS)
     check_word("text", text, TEXT_WORDS)
+    check_word("hidden", told.hidden, get_args(Hidden))
     usual = STANDARDS[str(told.standard)]
     way = told.projection or usual.projection
     check_word("projection", way, ("first", "third"))
@@ -846,7 +853,7 @@ def technical_sheet(
     _tell_left_out(annotations, notes.values())
     options = {"crease_angle_deg": crease_angle_deg, "text": text, "progress": progress, "explain": explain}
     options["shortest_mm"] = shortest_mm
-    drawer = _Views(part, factor, cut_spacing_mm, options)
+    drawer = _Views(part, factor, cut_spacing_mm, cast(Hidden, told.hidden), options)
     placed = {view.name: (view, place) for view, place in zip(arranged.views, arranged.middles(factor), strict=True)}
     written: dict[str, Floats] = {}
     around: list[Layer] = []
@@ -927,7 +934,9 @@ def _around(
     return tuple(found)
 
 
-USUAL = SheetSettings(views=("front", "top", "left", "iso"), scale="fit", unit="mm", standard="iso", block=True)
+USUAL = SheetSettings(
+    views=("front", "top", "left", "iso"), scale="fit", unit="mm", standard="iso", block=True, hidden="dashed"
+)
 """What sheets are like where nothing else is said."""
 
 

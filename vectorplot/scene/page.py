@@ -221,7 +221,7 @@ class SheetSettings:
     ----------
     views : tuple of str, optional
         Its main views.
-    scale, unit, standard, measured_in, projection, page : str, optional
+    scale, unit, standard, measured_in, projection, page, hidden : str, optional
         As the arguments of these names.
     section, detail_view, breakout, interrupted : tuple of str, optional
         Sections, details, local sections, and what is left out of long parts.
@@ -267,6 +267,7 @@ class SheetSettings:
     block_template: str | None = None
     balloons: bool | None = None
     parts_list: bool | None = None
+    hidden: str | None = None
 
     @property
     def said(self) -> dict[str, Any]:

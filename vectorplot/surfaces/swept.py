@@ -17,7 +17,8 @@ from vectorplot.curves.splines import CubicSpline, InterpolatingSpline, SplineCu
 from vectorplot.errors import InputError
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.elementary import arctan2, exp
-from vectorplot.geometry.vectors import component_sum, cross, length, normalize
+from vectorplot.geometry.solids import zero_distance
+from vectorplot.geometry.vectors import component_sum, cross, length, norm, normalize
 from vectorplot.surfaces.placed_surface import MovableSurface
 from vectorplot.surfaces.surface import Domain, FirstJets, SecondJets
 
@@ -596,7 +597,7 @@ def _trace(curve: Curve | ArrayLike) -> Curve:
     if points.ndim != 2 or points.shape[1] != 3:
         given = f"an array of shape {points.shape}" if points.size else type(curve).__name__
         raise InputError(f"a tube needs a curve, or points (n, 3), not {given}")
-    loop = len(points) > 3 and bool((points[0] == points[-1]).all())
+    loop = len(points) > 3 and bool(norm(points[0] - points[-1]) <= zero_distance(points))
     return spline_curve(points[:-1] if loop else points, CubicSpline(closed=loop))
 
 

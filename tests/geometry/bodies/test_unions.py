@@ -128,3 +128,17 @@ def test_bodies_that_are_not_convex_are_united_by_another_library():
     assert volume(body) == pytest.approx(4.0, abs=1e-12)
     both = polyhedron_union([spool, spool.moved(0, 0, 2)])
     assert both.is_closed and volume(both) == pytest.approx(2 * volume(spool), rel=1e-12)
+
+
+def test_bodies_that_touch_along_edges_of_facets_are_united():
+    """The spigot of a housing begins in the plane of an edge inside of its wall."""
+    pytest.importorskip("manifold3d")
+    wall = revolution([(22, 0, 0), (60, 0, 0), (60, 0, 40), (50, 0, 40), (50, 0, 8), (22, 0, 8), (22, 0, 0)], 96)
+    spigot = revolution([(12, 0, 50), (20, 0, 50), (20, 0, 84), (12, 0, 84), (12, 0, 50)], 64)
+    turn = np.eye(4)
+    turn[1:3, 1:3] = [(0, 1), (-1, 0)]
+    spigot = spigot.transformed(turn).moved(0, 0, 24)
+    body = polyhedron_union([wall, spigot])
+    assert body.is_closed
+    assert volume(wall) < volume(body) < volume(wall) + volume(spigot)
+    assert body.bounds[1].tolist() == pytest.approx([60.0, 84.0, 44.0])
