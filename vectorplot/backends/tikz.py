@@ -12,6 +12,7 @@ from vectorplot.arrays import Ints
 from vectorplot.backends.page import Areas, Ink, PageStrokes, PageTexts, page_marks
 from vectorplot.backends.shaded_triangles import grown, underlaps
 from vectorplot.backends.svg import millimetres
+from vectorplot.curves.arcs import EllipseArcs
 from vectorplot.drawing.drawing import Drawing
 from vectorplot.drawing.fills import SEAM_MM
 from vectorplot.drawing.formulas import FORMULA, checked_formula
@@ -19,7 +20,9 @@ from vectorplot.drawing.letters import clusters
 from vectorplot.drawing.texts import Texts
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
+from vectorplot.geometry.elementary import arctan2
 from vectorplot.scene.page import MM_PER_POINT, in_latex
+from vectorplot.tolerances import ARC_DECIMAL_MM
 
 # Colours in the words of PGF/TikZ.
 
@@ -181,6 +184,9 @@ def overlay_bytes(drawing: Drawing, picture: str) -> bytes:
 
 # A picture for LaTeX documents, in the commands of PGF/TikZ.
 
+ARC_DIGITS = 5
+"""Decimals of the numbers of arcs, which TeX reckons with no more of."""
+
 LARGEST_PAGE_MM = 5000.0
 """TeX knows no lengths of more than 16383 points."""
 
@@ -232,11 +238,48 @@ def _layer(ink: Ink) -> bytes:
 def _part(part: PageStrokes | Areas | PageTexts, pen_mm: float) -> bytes:
     if isinstance(part, PageTexts):
         return text_nodes(part)
-    return _areas(part, pen_mm) if isinstance(part, Areas) else _strokes(part)
+    return _areas(part, pen_mm) if isinstance(part, Areas) else _strokes(part) + _arcs(part)
+
+
+def _arcs(lines: PageStrokes) -> bytes:
+    """Strokes that are arcs, as such: those of circles, or of ellipses, which may be turned."""
+    arcs = lines.arcs
+    wide, high = np.hypot(*arcs.first.T), np.hypot(*arcs.second.T)
+    is_round = np.abs(wide - high) < ARC_DECIMAL_MM
+    tilt = np.degrees(arctan2(arcs.first[:, 1], arcs.first[:, 0])).round(ARC_DIGITS) + 0.0
+    # Where the second axis lies clockwise from the first one angles run the other way.
+    sense = np.where(arcs.first[:, 0] * arcs.second[:, 1] > arcs.first[:, 1] * arcs.second[:, 0], 1.0, -1.0)
+    ends = np.degrees(np.stack((arcs.start, arcs.end))) * sense + np.where(is_round, tilt, 0.0)
+    begin = lines.microns[lines.offsets[:-1][arcs.stroke]] / 1000.0
+    columns = (arcs.centre, begin, ends.T, np.stack((wide, high), axis=1))
+    rows = np.concatenate(columns, axis=1).round(ARC_DIGITS) + 0.0
+    found = []
+    for row, turn, same, whole in zip(
+        rows.tolist(), tilt.tolist(), is_round.tolist(), lines.closed[arcs.stroke].tolist(), strict=True
+    ):
+        cx, cy, x, y, start, end, a, b = (f"{number:.10g}" for number in row)
+        radii = f"radius={a}" if same else f"x radius={a},y radius={b}"
+        turned = "" if same or turn == 0.0 else f"rotate={turn:.10g}"
+        if whole:
+            found.append(f"\\draw ({cx},{cy}) circle[{','.join(filter(None, (radii, turned)))}];\n")
+            continue
+        arc = f"arc[start angle={start},end angle={end},{radii}]"
+        found.append(f"\\draw ({x},{y}) {f'{{[{turned}] {arc}}}' if turned else arc};\n")
+    return "".join(found).encode("ascii")
 
 
 def _strokes(lines: PageStrokes) -> bytes:
-    """All strokes as paths that are drawn."""
+    """All strokes but arcs as paths that are drawn."""
+    is_arc = np.zeros(len(lines.offsets) - 1, dtype=np.bool_)
+    is_arc[lines.arcs.stroke] = True
+    kept = ~np.repeat(is_arc, np.diff(lines.offsets))
+    lines = PageStrokes(
+        lines.microns[kept],
+        ragged.offsets(np.diff(lines.offsets)[~is_arc]),
+        lines.closed[~is_arc],
+        lines.curved[~is_arc],
+        EllipseArcs.none(),
+    )
     sizes = np.diff(lines.offsets)
     place, owner = ragged.place(sizes), ragged.owner(sizes)
     count, curved = sizes[owner], lines.curved[owner]

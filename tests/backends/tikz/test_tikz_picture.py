@@ -12,9 +12,11 @@ from PIL import Image
 import vectorplot as vp
 from vectorplot.backends.cairo import drawing_pixels
 from vectorplot.backends.json import read_drawing
+from vectorplot.backends.page import page_marks
 from vectorplot.backends.tikz import tikz_bytes
 from vectorplot.errors import InputError
 from vectorplot.save import write_for_latex
+from vectorplot.surfaces import Cylinder, Sphere
 
 DOCUMENT = (
     "\\documentclass{article}\\usepackage[paperwidth=%gmm,paperheight=%gmm,margin=0mm]{geometry}\\usepackage{tikz}"
@@ -50,6 +52,43 @@ def test_latex_sets_lines_in_their_size_and_place(name, tmp_path):
     seen, log = set_by_latex(drawing, tmp_path)
     assert like_ours(drawing, seen) < 2e-4 and "Overfull" not in log
     assert (seen.min(axis=2) < 128).mean() > 1e-3
+
+
+def _balls_and_cans():
+    ball, can = Sphere(1.0), Cylinder(1.0, 0.0, 2.0)
+    cans = [vp.Item(f"CAN {k}", can).turned("y", 20.0 + 60.0 * k).moved(3.0 * k, 0.0, 0.0) for k in (1, 2, 3)]
+    mirrored = cans[0].scaled(1.0, -1.0, 1.0).moved(-6.0, 0.0, 0.0)
+    return vp.Scene((vp.Item("BALL", ball), *cans, mirrored))
+
+
+@pytest.mark.slow
+def test_arcs_end_where_their_strokes_do():
+    drawing = vp.draw(_balls_and_cans(), "iso", page=vp.Page(120, 90, 10), hidden="solid")
+    (ink, *more) = page_marks(drawing).inks
+    parts = [part for one in (ink, *more) for part in one.parts]
+    ends = [part.microns[part.offsets[1:][part.arcs.stroke] - 1] / 1000.0 for part in parts]
+    closed = np.concatenate([part.closed[part.arcs.stroke] for part in parts])
+    wanted = np.concatenate(ends)[~closed]
+    number = r"(-?[0-9.]+)"
+    found = []
+    for x, y, _, turn, start, end, radii in re.findall(
+        rf"draw \({number},{number}\) ({{\[rotate={number}\] )?arc\[start angle={number},end angle={number},(.*?)\]",
+        tikz_bytes(drawing).decode("ascii"),
+    ):
+        a, *b = map(float, re.findall(number, radii))
+        t, tilt = np.radians([float(start), float(end)]), np.radians(float(turn or 0.0))
+        (dx, dy) = a * np.diff(np.cos(t)), (b or [a])[0] * np.diff(np.sin(t))
+        way = np.concatenate([dx * np.cos(tilt) - dy * np.sin(tilt), dx * np.sin(tilt) + dy * np.cos(tilt)])
+        found.append(np.add(way, (float(x), float(y))))
+    assert len(found) == len(wanted) > 6 and closed.any()
+    np.testing.assert_allclose(found, wanted, atol=2e-3)
+
+
+@pytest.mark.slow
+def test_latex_sets_arcs_where_other_formats_have_them(tmp_path):
+    drawing = vp.draw(_balls_and_cans(), "iso", page=vp.Page(120, 90, 10), hidden="solid")
+    seen, _ = set_by_latex(drawing, tmp_path)
+    assert like_ours(drawing, seen) < 2e-4
 
 
 @pytest.mark.slow
