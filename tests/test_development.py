@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import shapely
@@ -11,6 +13,7 @@ import vectorplot as vp
 from vectorplot.cli.commands.develop import develop
 from vectorplot.geometry import box, revolution
 from vectorplot.io import parse_scene
+from vectorplot.surfaces import Cylinder
 
 PIPES = """A gray surface cylinder 20 -50 50 rotation z 90
            B gray surface cylinder 14 0 60 rotation y 90"""
@@ -164,3 +167,41 @@ def test_what_is_tiny_is_told_by_the_command(tmp_path):
         CliRunner().invoke(develop, [str(tmp_path / way[0]), "-o", str(tmp_path / way[2]), *way[3:]]) for way in ways
     ]
     assert "is 4 x 3 mm: --unit cm or m" in told[0].output and not told[1].output
+
+
+@pytest.mark.parametrize(
+    ("shape", "at"),
+    [
+        (box((40, 30, 20)), (20, 0, 10)),
+        (box((40, 30, 20)), (20, 15, 0)),
+        (box((40, 30, 20)), (40, 10, 10)),
+        (box((40, 30, 20)).moved(1e6, -1e6, 0), (1e6 + 20, -1e6, 10)),
+        (Cylinder(10, 0, 30), (0, -10, 15)),
+    ],
+    ids=["front", "base", "side", "far away", "cylinder"],
+)
+@pytest.mark.parametrize("unit", ["mm", "cm"])
+def test_labels_on_bodies_are_written_on_their_developments(shape, at, unit):
+    scene = vp.Scene((vp.Item("body", shape),), labels=(vp.Label("L", at, size_mm=5), vp.Label("M", (9, 9, 1e3))))
+    drawing = vp.development(scene, unit=unit)
+    bare = vp.development(replace(scene, labels=()), unit=unit)
+    (letters,) = [layer.strokes[0] for layer in drawing.layers if layer.name == "label"]
+    points = letters.points
+    one, corner, other = points
+    long, short = sorted((one - corner, other - corner), key=np.linalg.norm, reverse=True)
+    # As large as is asked for, whatever the unit, and not mirrored.
+    assert np.linalg.norm([long, short], axis=1) == pytest.approx([5.0, 2.0 * 5.0 / 3.5])
+    assert long[0] * short[1] < long[1] * short[0]
+    assert (points > 10 - 5).all() and (points < np.array([drawing.width_mm, drawing.height_mm]) - 5).all()
+    assert (drawing.width_mm, drawing.height_mm) == (bare.width_mm, bare.height_mm)
+
+
+def test_letters_stand_level_and_in_the_middle_of_what_they_name():
+    scene = vp.Scene((vp.Item("can", Cylinder(10, 0, 30)),), labels=(vp.Label("I", (0, -10, 20), size_mm=5),))
+    layers = {layer.name: layer.strokes[0].points for layer in vp.development(scene).layers}
+    letter, side = layers["label"], layers["cut"]
+    assert np.ptp(letter[:, 0]) == pytest.approx(0.0, abs=1e-6)
+    assert np.ptp(letter[:, 1]) == pytest.approx(5.0)
+    # Three quarters around from where u is 0, two thirds up; the piece may lie on its head.
+    place = (letter.mean(axis=0) - side.min(axis=0)) / np.ptp(side, axis=0) - 0.5
+    assert np.sign(place[0]) * place == pytest.approx([0.25, 1 / 6], abs=1e-3)

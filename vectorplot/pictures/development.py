@@ -35,6 +35,7 @@ from vectorplot.geometry.nets import Net, net_of, of_convex_faces, turned
 from vectorplot.geometry.polylines import segments
 from vectorplot.geometry.regions import polygons_of
 from vectorplot.geometry.solids import zero_distance
+from vectorplot.geometry.triangles import PlacedTriangles
 from vectorplot.geometry.vectors import dot, norm
 from vectorplot.geometry.winding import face_barycentres
 from vectorplot.io.anything import scene_of
@@ -42,14 +43,15 @@ from vectorplot.pictures.options import check_options
 from vectorplot.pictures.pipeline import Pipeline, Stage, StageReport, stoppable
 from vectorplot.pictures.technical_sheet import MM_PER
 from vectorplot.scene.item import Item
+from vectorplot.scene.labels import Label
 from vectorplot.scene.page import Page
 from vectorplot.scene.placement import page_of
 from vectorplot.scene.scene import Scene
 from vectorplot.surfaces.capped_bodies import Capped
 from vectorplot.surfaces.placed_surface import PlacedSurface
-from vectorplot.surfaces.surface import Surface, is_parametrised
+from vectorplot.surfaces.surface import Surface, is_parametrised, normals
 from vectorplot.surfaces.unrolled import Turned, Unrolled
-from vectorplot.tolerances import COINCIDENT_MM, LEAST_DIVISOR
+from vectorplot.tolerances import COINCIDENT_MM, LEAST_DIVISOR, NO_AZIMUTH_SINE
 from vectorplot.words import LineKind, check_word
 
 GAP_MM = 6.0
@@ -78,6 +80,10 @@ PROPORTION = 1.4
 
 SAME_WAY = math.pi / 2.0 / 4096.0
 """Straight lines with a smaller angle between them run in one direction."""
+
+STARTS, STEPS, SMALL_STEP = (96, 16), 16, 1e-5
+"""Places on a surface from which points of it are looked for, by so many steps; and the part of its domain by which
+directions in the plane are told."""
 
 MOST_POINTS = 1 << 13
 """On a side of an unrolled surface."""
@@ -153,9 +159,14 @@ class Developed:
 
 
 def _of_mesh(
-    item: Item, others: Sequence[Item], crease_angle_deg: float, tolerance: float, tracing: Tracing
+    item: Item,
+    others: Sequence[Item],
+    labels: Sequence[Label],
+    crease_angle_deg: float,
+    tolerance: float,
+    tracing: Tracing,
 ) -> Developed:
-    """The net of a polyhedron with the curves on it."""
+    """The net of a polyhedron with the curves and the labels on it."""
     net = net_of(item.mesh, tolerance)
     mesh = net.mesh
     corners = net.corners
@@ -171,6 +182,7 @@ def _of_mesh(
     for layer, which in ((MOUNTAIN, bent & (net.angle > 0.0)), (VALLEY, bent & (net.angle < 0.0))):
         parts.append(_sides(corners, after, piece, net.first[which], layer))
     parts += _curves_on_mesh(item, net, others, tracing)
+    parts += _labels_on_mesh(net, labels)
     sides = np.stack([corners, after], axis=1)
     areas = polygons_of(corners.T, mesh.offsets)
     strokes = Strokes2D.joined(parts)
@@ -215,6 +227,44 @@ def _curves_on_mesh(item: Item, net: Net, others: Sequence[Item], tracing: Traci
             yield on_faces(points[pairs[:, 0]], points[pairs[:, 1]], faces, LineKind.INTERSECTION)
 
 
+def _labels_on_mesh(net: Net, labels: Sequence[Label]) -> Iterator[Strokes2D]:
+    """The letters of labels at points of the polyhedron, each on the first of the faces that it is on."""
+    mesh, at = net.mesh, _points_of(labels)
+    label, face = PlacedTriangles(mesh).faces_at(at, zero_distance(np.concatenate([mesh.vertices, at])))
+    first = np.lexsort((face, label))[np.diff(np.sort(label), prepend=-1) > 0]
+    label, face = label[first], face[first]
+    level = _level(mesh.face_normals[face])
+    origins = net.placed(at[label], face)
+    ways = net.placed(at[label] + level, face) - origins
+    for number, origin, way, piece in zip(label.tolist(), origins, ways, net.piece[face].tolist(), strict=True):
+        yield _letters(labels[number], origin, way, piece)
+
+
+def _points_of(labels: Sequence[Label]) -> Floats:
+    """(l,3) the points that labels name."""
+    return np.array([label.at for label in labels], dtype=np.float64).reshape(-1, 3)
+
+
+def _level(normals: Floats) -> Floats:
+    """(n,3) directions that are level in planes with these normals (n,3), to the right as one looks at them from
+    outside; along x in planes that are level."""
+    way = np.stack([-normals[:, 1], normals[:, 0], np.zeros(len(normals))], axis=1)
+    length = norm(way)[:, None]
+    return np.where(length > NO_AZIMUTH_SINE, way / np.maximum(length, LEAST_DIVISOR), (1.0, 0.0, 0.0))
+
+
+def _letters(label: Label, origin: Floats, way: Floats, piece: int) -> Strokes2D:
+    """The letters of a label about a point of a piece, along a way there."""
+    turn = math.degrees(float(arctan2(way[1], way[0])))
+    try:
+        text = lettered(
+            label.text, origin, size_mm=label.capitals_mm, align="centre", level="middle", rotation_deg=turn
+        ).strokes
+    except InputError as error:
+        raise InputError(f"label {label.name}: {error.cause}") from None
+    return _polylines([text[k] for k in range(len(text))], NUMBER, piece, LineKind.LABEL)
+
+
 def _met(mesh: Mesh, other: Mesh, on_faces: Callable[[Floats, Floats, Ints, LineKind], Strokes2D]) -> Strokes2D:
     """Where the faces of another mesh meet those of one."""
     points = np.concatenate([mesh.vertices, other.vertices])
@@ -233,8 +283,10 @@ def _met(mesh: Mesh, other: Mesh, on_faces: Callable[[Floats, Floats, Ints, Line
 # Smooth surfaces.
 
 
-def _of_surface(item: Item, others: Sequence[Item], tolerance: float, tracing: Tracing) -> Developed:
-    """A developable surface unrolled, each of its parts a piece, with the curves on it."""
+def _of_surface(
+    item: Item, others: Sequence[Item], labels: Sequence[Label], tolerance: float, tracing: Tracing
+) -> Developed:
+    """A developable surface unrolled, each of its parts a piece, with the curves and the labels on it."""
     parts: list[Strokes2D] = []
     areas, one, other, of_one = [], [], [], []
     rims: list[tuple[int, Floats, Floats]] = []
@@ -274,6 +326,7 @@ def _of_surface(item: Item, others: Sequence[Item], tolerance: float, tracing: T
                 rims.append((number, side, unrolled.surface.points(u, np.full(RIM_PLACES, v))))
         areas.append(ring)
         parts += _curves_on_surface(item, unrolled, others, tracing, tolerance, number)
+        parts += _labels_on_surface(unrolled, labels, tolerance, number)
     sizes = [len(ring) for ring in areas]
     polygons = polygons_of(np.concatenate(areas).T, ragged.offsets(sizes))
     pieces = np.array(of_one, dtype=np.intp)
@@ -360,6 +413,44 @@ def _curves_on_surface(
             for part in _smooth_parts(other.shape):
                 met = surface_intersection(surface, part, tracing=tracing)
                 yield _within(unrolled, _ends(met, met.one), LineKind.INTERSECTION, piece)
+
+
+def _labels_on_surface(
+    unrolled: Unrolled, labels: Sequence[Label], tolerance: float, piece: int
+) -> Iterator[Strokes2D]:
+    """The letters of labels at points no farther than a tolerance from the surface."""
+    surface, at = unrolled.surface, _points_of(labels)
+    if not len(at):
+        return
+    u, v = (grid.ravel() for grid in np.meshgrid(*surface.domain.grid(*STARTS), indexing="ij"))
+    start = np.argmin(norm(surface.points(u, v) - at[:, None]), axis=1)
+    u, v = u[start], v[start]
+    domain = surface.domain
+    low, high = (domain.u_start, domain.v_start), (domain.u_end, domain.v_end)
+    for _ in range(STEPS):
+        step_u, step_v = _in_parameters(surface, u, v, at - surface.points(u, v))
+        u, v = np.clip(u + step_u, low[0], high[0]), np.clip(v + step_v, low[1], high[1])
+    near = norm(surface.points(u, v) - at) <= tolerance
+    # Level is what leads to the right as one looks at the normal, also where u and v have changed places.
+    normal = normals(surface, u, v) * (-1.0 if isinstance(surface, Turned) else 1.0)
+    level = _level(normal / np.maximum(norm(normal), LEAST_DIVISOR)[:, None])
+    step_u, step_v = _in_parameters(surface, u, v, level)
+    least = min(domain.u_end - domain.u_start, domain.v_end - domain.v_start)
+    small = SMALL_STEP * least / np.maximum(np.maximum(np.abs(step_u), np.abs(step_v)), LEAST_DIVISOR)
+    origins = unrolled.placed(u, v)
+    back = unrolled.placed(np.clip(u - small * step_u, low[0], high[0]), np.clip(v - small * step_v, low[1], high[1]))
+    ahead = unrolled.placed(np.clip(u + small * step_u, low[0], high[0]), np.clip(v + small * step_v, low[1], high[1]))
+    for number in np.flatnonzero(near).tolist():
+        yield _letters(labels[number], origins[number], ahead[number] - back[number], piece)
+
+
+def _in_parameters(surface: Surface, u: Floats, v: Floats, ways: Floats) -> tuple[Floats, Floats]:
+    """(n,) the steps in u and in v that lead along the tangential parts of ways (n,3) from places."""
+    along_u, along_v = surface.partials(u, v)
+    uu, uv, vv = dot(along_u, along_u), dot(along_u, along_v), dot(along_v, along_v)
+    du, dv = dot(ways, along_u), dot(ways, along_v)
+    whole = np.maximum(uu * vv - uv * uv, LEAST_DIVISOR)
+    return (vv * du - uv * dv) / whole, (uu * dv - uv * du) / whole
 
 
 def _ends(curves: Any, places: Floats) -> Floats:
@@ -702,6 +793,11 @@ def development(
     return pipeline.run("layout", _drawing, made, given, page)
 
 
+def _labels_in_space(scene: Scene) -> list[Label]:
+    """Those with letters at points."""
+    return [label for label in scene.labels if isinstance(label.at, tuple) and label.text.strip()]
+
+
 def _developed(scene: Scene, crease_angle_deg: float, tolerance: float, tracing: Tracing) -> list[Developed]:
     """All items that are bodies or surfaces."""
     bodies = [
@@ -713,13 +809,14 @@ def _developed(scene: Scene, crease_angle_deg: float, tolerance: float, tracing:
         raise InputError("there is nothing to develop: no polyhedra and no surfaces")
     made: list[Developed] = []
     left_out: list[str] = []
+    labels = _labels_in_space(scene)
     for item in in_turn(bodies):
         others = [other for other in bodies if other is not item]
         try:
             if isinstance(item.shape, Mesh):
-                made.append(_of_mesh(item, others, crease_angle_deg, tolerance, tracing))
+                made.append(_of_mesh(item, others, labels, crease_angle_deg, tolerance, tracing))
             elif is_parametrised(item.shape):
-                made.append(_of_surface(item, others, tolerance, tracing))
+                made.append(_of_surface(item, others, labels, tolerance, tracing))
             else:
                 raise InputError("an implicit surface has no development; a mesh of it may have one")
         except InputError as error:
