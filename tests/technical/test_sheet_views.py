@@ -73,6 +73,40 @@ def test_an_aligned_section_shows_both_arms_in_full():
     assert sorted(np.round(ways, 6).tolist()) == [60.0, 180.0]
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("section", "size", "turn"),
+    [
+        # Across the corners of a block of 40 x 30 x 12 its face is 50 wide, seen along the diagonal.
+        ("3x=4y", (50.0, 12.0), 36.869897645844),
+        ("-4y=-3x", (50.0, 12.0), 36.869897645844),
+        # From the lower edge at the left to the upper one at the right.
+        ("z=0.3x", (30.0, 40.0 * np.hypot(1.0, 0.3)), np.degrees(np.arctan(0.3))),
+    ],
+)
+def test_an_oblique_section_has_its_true_size_and_its_line(section, size, turn):
+    block = box((40.0, 30.0, 12.0))
+    sheet = vp.technical_sheet(block, views="front,top", section=section, scale="1:1", centre_lines=True)
+    areas = np.concatenate([part for _, part in strokes_of(sheet, "hatch")])
+    assert sorted(np.ptp(areas, axis=0)) == pytest.approx(sorted(size), abs=2.5)
+    cut = np.concatenate([part for _, part in strokes_of(sheet, "cut")])
+    assert sorted(np.ptp(cut, axis=0)) == pytest.approx(sorted(size), abs=1e-6)
+    ends = np.array([part for _, part in strokes_of(sheet, "cutting ends") if len(part) == 2])
+    ways = np.degrees(np.arctan2(*(ends[:, 1] - ends[:, 0]).T[::-1])) % 180.0
+    assert ways == pytest.approx([turn, turn])
+
+
+@pytest.mark.slow
+def test_a_plane_across_no_view_has_no_line_but_a_section():
+    """The plane through three corners of a cube is cut in an equilateral triangle."""
+    sheet = vp.technical_sheet(box((20.0, 20.0, 20.0)), views="front", section="x+y+z=20", scale="1:1")
+    assert "cutting line" not in [one.name for one in sheet.layers]
+    cut = np.concatenate([part for _, part in strokes_of(sheet, "cut")])
+    corners = np.unique(cut.round(6), axis=0)
+    apart = np.linalg.norm(corners[:, None] - corners, axis=2)
+    assert len(corners) == 3 and apart[np.triu_indices(3, 1)] == pytest.approx([20.0 * 2**0.5] * 3, abs=1e-5)
+
+
 @pytest.mark.parametrize("axis", "xyz")
 def test_halves_of_aligned_sections_are_beside_each_other(axis):
     (section,) = sections_of(
@@ -87,6 +121,9 @@ def test_halves_of_aligned_sections_are_beside_each_other(axis):
     ("section", "cause"),
     [
         ("half", "expected x, y or z"),
+        ("x+y>3", "expected x, y or z"),
+        ("half x+y=3", "expected x, y or z"),
+        ("x+y=300", "beside the part"),
         ("y=6 | y=8 | y=14", "planes of one axis with steps"),
         ("y=6 | x=20", "planes of one axis with steps"),
         ("y=6 | x=30 | y=14 | x=20 | y=6", "planes of one axis with steps"),

@@ -21,6 +21,9 @@ from vectorplot.drawing.title_block import DrawingScale, Plain, drawing_space
 from vectorplot.errors import InputError
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.rotations import upright_turn
+from vectorplot.geometry.vectors import normalize
+from vectorplot.scene.cuts import Cut
 from vectorplot.scene.page import Page
 from vectorplot.scene.placement import page_of
 from vectorplot.scene.scene import Scene
@@ -288,7 +291,9 @@ class SheetSection:
     """A section of a part across an axis (0, 1, 2), called by a letter, like one of the main views.
 
     zones: side by side along the axis across, more than one for half, offset and aligned sections; hinge: a point of
-    the axis about which the part is turned in aligned sections; arms: the directions of its two planes there, degrees.
+    the axis about which the part is turned in aligned sections; arms: the directions of its two planes there, degrees;
+    normal: of the plane of an oblique section, through the hinge, about which the part is turned until the plane is
+    across the axis.
     """
 
     letter: str
@@ -298,6 +303,7 @@ class SheetSection:
     across: int
     hinge: tuple[float, float, float] | None = None
     arms: tuple[float, float] = (180.0, 0.0)
+    normal: tuple[float, float, float] | None = None
 
     @property
     def turn_axis(self) -> int:
@@ -315,9 +321,14 @@ class SheetSection:
 
     def shown(self, scene: Scene, zone: Zone) -> Scene:
         """The part as a zone shows it before it is cut."""
-        if self.hinge is None or zone.turn_deg == 0.0:
+        if self.hinge is None or (self.normal is None and zone.turn_deg == 0.0):
             return scene
         x, y, z = self.hinge
+        if self.normal is not None:
+            cycle = np.roll(np.eye(3), 2 - self.axis, axis=0)
+            matrix = np.eye(4)
+            matrix[:3, :3] = matmul(cycle.T, matmul(upright_turn(np.roll(self.normal, 2 - self.axis)), cycle))
+            return scene.moved(-x, -y, -z).transformed(matrix).moved(x, y, z)
         turned = scene.moved(-x, -y, -z).turned("xyz"[self.turn_axis], zone.turn_deg)
         return turned.moved(x, y, z)
 
@@ -349,6 +360,8 @@ class SheetSection:
         """The view that shows where it is, of those that are named."""
         simple = len(self.zones) == 1
         seen = [name for name in TOLD_IN[self.axis] if simple or SEEN_ALONG[name] == self.turn_axis]
+        if self.normal is not None:
+            seen = [name for name in seen if abs(self.normal[SEEN_ALONG[name]]) <= EDGE_ON_SINE]
         return next((name for name in seen if name in names), None)
 
     def offset_near(self, places: Floats) -> Floats:
@@ -358,7 +371,7 @@ class SheetSection:
 
     def line_room_mm(self, camera: Camera) -> Floats:
         """(2,2) what its line needs around the part in a view."""
-        if len(self.zones) > 1:
+        if len(self.zones) > 1 or self.normal is not None:
             return np.full((2, 2), ROOM_MM)
         return np.tile(np.where(np.abs(camera.axes[:2, self.axis]) > math.sqrt(0.5), 0.5, 1.0) * ROOM_MM, (2, 1))
 
@@ -366,6 +379,10 @@ class SheetSection:
         """Both ends of its line in a view that sees its plane edge-on, and the corners (k,3) between them; sight: the
         camera of the section; centre (3,): of the part."""
         look = -np.asarray(sight.direction)
+        if self.normal is not None:
+            normal, origin = np.array(self.normal), np.array(self.hinge)
+            course, way = normalize(np.cross(normal, camera.axes[2])), float(look[self.axis]) * normal
+            return (LineEnd(origin, -course, way), LineEnd(origin, course, way)), np.zeros((0, 3))
         if self.hinge is not None:
             one, other = np.eye(3)[(self.turn_axis + 1) % 3], np.eye(3)[(self.turn_axis + 2) % 3]
             ends = []
@@ -488,7 +505,7 @@ def _beyond(far: Floats, reach: float) -> float:
 
 def sections_of(asked: str | Iterable[str], names: Sequence[str], bounds: Floats) -> tuple[SheetSection, ...]:
     """The sections that texts ask for, lettered in their order, each like the main view of its direction: y=12,
-    half y=12, y=12 | x=20 | y=30, or aligned z at 0,0 from 180 to 60.
+    x+y=30, half y=12, y=12 | x=20 | y=30, or aligned z at 0,0 from 180 to 60.
 
     Errors: InputError for texts that are none, planes beside the part, and more sections than letters.
     """
@@ -516,6 +533,8 @@ def _section(letter: str, text: str, names: Sequence[str], bounds: Floats) -> Sh
     if (aligned := _ALIGNED.fullmatch(text)) is not None:
         return _aligned(letter, "xyz".index(aligned[1]), [float(aligned[k]) for k in range(2, 6)], names)
     half = text.split()[:1] == ["half"]
+    if not half and "|" not in text and not _PLANE.fullmatch(text):
+        return _oblique(letter, text, names, bounds)
     planes = [_plane(part, text, bounds) for part in text.strip().removeprefix("half").split("|")]
     axis, offset = planes[0]
     usual = SEEN_AS[axis]
@@ -559,15 +578,42 @@ def _aligned(letter: str, turn: int, said: Sequence[float], names: Sequence[str]
     return SheetSection(letter, axis, like, (low, high), across, place, (begin, end))
 
 
+def _oblique(letter: str, text: str, names: Sequence[str], bounds: Floats) -> SheetSection:
+    """A section in a plane of any direction, such as x + y = 30, like the main view that it is nearest to."""
+    try:
+        planes = Cut.of(text).planes
+    except InputError:
+        planes = ()
+    if len(planes) != 1 or not planes[0].to_eye:
+        raise _no_section(text)
+    normal, offset = np.array(planes[0].normal), planes[0].offset
+    axis = int(np.argmax(np.abs(normal)))
+    sign = math.copysign(1.0, normal[axis])
+    normal, offset = sign * normal, sign * offset
+    middle, half = bounds.mean(axis=0), 0.5 * np.ptp(bounds, axis=0)
+    away = offset - float(matmul(middle, normal))
+    if not abs(away) < float(matmul(half, np.abs(normal))):
+        raise InputError(f"section {text!r}: beside the part")
+    usual = SEEN_AS[axis]
+    like = next((name for name in usual if name in names), usual[0])
+    hinge = middle + away * normal
+    (x, y, z), (a, b, c) = hinge.tolist(), normal.tolist()
+    return SheetSection(letter, axis, like, (Zone(float(hinge[axis])),), SPLIT_ALONG[axis], (x, y, z), normal=(a, b, c))
+
+
+def _no_section(text: str) -> InputError:
+    return InputError(
+        f"section {text!r}: expected x, y or z and a number, such as y=12, x+y=30, 'half y=12', 'y=12 | x=20 | y=30' "
+        "or 'aligned z at 0,0 from 180 to 60'"
+    )
+
+
 def _plane(part: str, text: str, bounds: Floats) -> tuple[int, float]:
     """The axis and the place that y=12 says. Errors: InputError for other texts, and planes beside the part."""
     sides = _PLANE.fullmatch(part)
     offset = float(sides[2]) if sides else math.nan
     if sides is None or not math.isfinite(offset):
-        raise InputError(
-            f"section {text!r}: expected x, y or z and a number, such as y=12, 'half y=12', 'y=12 | x=20 | y=30' or "
-            "'aligned z at 0,0 from 180 to 60'"
-        )
+        raise _no_section(text)
     axis = "xyz".index(sides[1])
     low, high = bounds[:, axis].tolist()
     if not low < offset < high:

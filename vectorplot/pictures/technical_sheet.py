@@ -182,7 +182,10 @@ class _Part:
     def centre_lines_in(self, section: SheetSection, extent: float) -> list[Annotation]:
         """The centre lines that a section shows: those in its planes, and the marks of circles behind these."""
         camera = camera_of(section.like, self.scene)
-        square = [one for one in self.annotations if one.is_in_every_view and one.is_square_to(camera, extent)]
+        known = self.annotations
+        if section.normal is not None:
+            known = tuple(replace(one, scene=section.shown(one.scene, section.zones[0])) for one in known)
+        square = [one for one in known if one.is_in_every_view and one.is_square_to(camera, extent)]
         zero = SAME_PLANE_OF_EXTENT * extent
         marks = [one.is_mark and self._is_behind(one, section, camera, zero) for one in square]
         off = [float(section.offset_near(one.points).max()) for one in square]
@@ -313,7 +316,10 @@ class _Views:
         """The part, in a section behind its plane."""
         section = self._section(view)
         scene = self.part.scene
-        return scene if section is None else self._cut(scene, section.condition(section.zones[0]), view.camera)
+        if section is None:
+            return scene
+        (zone, *_) = section.zones
+        return self._cut(section.shown(scene, zone), section.condition(zone), view.camera)
 
     def _parts(self, view: SheetView, notes: Sequence[Scene], page: Page) -> list[Drawing]:
         """What a view shows without its notes, which are there, as polylines on a page."""
@@ -655,7 +661,8 @@ def technical_sheet(
         view of that direction: A-A, B-B, and so on. Cut faces are hatched; in a view that sees the plane edge-on a line
         with arrows shows where it is. "half y=12" cuts what is at the right in its view, "y=12 | x=20 | y=30" goes on
         in another plane at a step, and "aligned z at 0,0 from 180 to 60" has two planes through an axis parallel to z,
-        at these angles, of which both are shown in full.
+        at these angles, of which both are shown in full. "x+y=30" or a plane of any other direction is shown in full
+        too: the part is turned, on the shortest way, so that it is across x, y or z.
     cut_spacing_mm : float, optional
         From stroke to stroke of these hatches, 0.1 or more; where None about 2.4, on narrow faces half as much.
     detail_view : str or iterable of str
@@ -665,7 +672,7 @@ def technical_sheet(
         The same, for local sections: inside of the circle the part is cut through the point, across the view.
     interrupted : str or iterable of str
         What is left out of a long part, such as "x=40..160": the rest moves together, with break lines between, and
-        measures stay what they are. Aligned sections do not go with it.
+        measures stay what they are. Aligned and oblique sections do not go with it.
     dimensions : bool
         How long the whole part is along x, y and z, each in one view.
     centre_lines : bool
@@ -1001,9 +1008,8 @@ def _check_sections(sections: Iterable[SheetSection], left_out: Interruptions) -
     """InputError for sections in what is left out, and aligned ones of an interrupted part."""
     for section in sections if left_out.ranges else ():
         if section.hinge is not None:
-            raise InputError(
-                f"section {section.letter}-{section.letter}: aligned sections and interrupted views exclude each other"
-            )
+            name = f"{section.letter}-{section.letter}"
+            raise InputError(f"section {name}: aligned or oblique sections and interrupted views exclude each other")
         for zone in section.zones:
             for axis, place in ((section.axis, zone.offset), (section.across, zone.high)):
                 if place is not None and math.isfinite(place):

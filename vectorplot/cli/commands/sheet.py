@@ -110,7 +110,7 @@ def _lying(page: str | None, standard: str | None, said: SheetSettings) -> str:
         "--section",
         multiple=True,
         metavar="AXIS=PLACE",
-        help="A section view, as y=12, 'half y=12', 'y=12 | x=20 | y=30' or 'aligned z at 0,0 from 180 to 60'; "
+        help="A section view, as y=12, x+y=30, 'half y=12', 'y=12 | x=20 | y=30' or 'aligned z at 0,0 from 180 to 60'; "
         "repeat it for more.",
     ),
     CUT_SPACING,
