@@ -295,6 +295,22 @@ def test_assemblies_are_items_with_names_colours_and_groups(assembly: Scene):
     assert np.allclose(assembly.items[3].mesh.bounds, [(7, 17, 4), (13, 23, 14)], atol=0.02)
 
 
+def test_materials_of_parts_are_a_column_of_their_list(opencascade: None, tmp_path: Path):
+    whole = Assembly()
+    plate = whole.made_of(whole.part("plate", cad_parts.box(40, 30, 4)), "S235JR")
+    pins = [whole.made_of(whole.part(f"pin {k}", cad_parts.rod(k, 9)), said) for k, said in ((2, "C45"), (3, "brass"))]
+    mixed = whole.group("pins", *((pin, (10.0, 10.0 * k, 4.0)) for k, pin in enumerate(pins)))
+    bare = whole.part("cap", cad_parts.box(2, 2, 2))
+    whole.group("whole", (plate, (0, 0, 0)), (mixed, (0, 0, 0)), (bare, (0, 0, 9)))
+    scene = vp.read(whole.write(tmp_path / "whole.step"))
+    # Of what is of several materials, or of none that is known, nothing is said.
+    assert scene.sheet is not None and scene.sheet.made_of == (("plate", "S235JR"),)
+    sheet = vp.technical_sheet(scene, parts_list=True, text="real")
+    strings = [string for layer in sheet.layers for texts in layer.texts for string in texts.strings]
+    assert {"plate", "S235JR", "pins", "cap"} <= set(strings)
+    assert vp.read(write_step(cad_parts.box(1, 1, 1), tmp_path / "box.step")).sheet is None
+
+
 def test_rims_of_bores_with_pins_in_them_are_whole(opencascade: None):
     plate = cad_parts.cut(cad_parts.box(40, 40, 10), cad_parts.rod(8, 20, 20, 20, -5))
     scene = scene_of({"plate": plate, "pin": cad_parts.moved(cad_parts.rod(8, 30), 20, 20, 0, turn=0.05)})

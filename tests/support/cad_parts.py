@@ -300,6 +300,13 @@ class Assembly:
         self.colours.SetColor(label, rgba, occ("XCAFDoc", "XCAFDoc_ColorType").XCAFDoc_ColorSurf)
         return label
 
+    def made_of(self, label: Any, name: str) -> Any:
+        """A label with a material."""
+        text, materials = occ("TCollection", "TCollection_HAsciiString"), occ("XCAFDoc", "XCAFDoc_DocumentTool")
+        said = text(name), text(""), 7.85, text("g/cm3"), text("POSITIVE_RATIO_MEASURE")
+        materials.MaterialTool_s(self.document.Main()).SetMaterial(label, *said)
+        return label
+
     def part(self, name: str, shape: Any) -> Any:
         """A part with a name."""
         return self.named(self.shapes.AddShape(shape, False), name)

@@ -31,6 +31,7 @@ from vectorplot.scene.extent import check_range
 from vectorplot.scene.face_looks import FaceLooks
 from vectorplot.scene.item import Item, SurfaceNormals
 from vectorplot.scene.material import Material
+from vectorplot.scene.page import SheetSettings
 from vectorplot.scene.scene import Scene, together
 from vectorplot.scene.surface_lines import SurfaceLines
 from vectorplot.tolerances import (
@@ -340,7 +341,7 @@ _Look = tuple[str, Floats | None]
 @dataclass(frozen=True, eq=False)
 class _Part:
     """A shape as it stands alone, where it stands, its name and colour (4,), the assembly in the whole that it belongs
-    to, and the names and colours of faces and solids in it."""
+    to, the names and colours of faces and solids in it, and what it is made of."""
 
     shape: Any
     location: Any
@@ -348,6 +349,7 @@ class _Part:
     colour: Floats | None = None
     group: str = ""
     within: Callable[[Any], _Look] = lambda _: ("", None)
+    made_of: str = ""
 
 
 def _read_shape(path: Path) -> Any:
@@ -412,7 +414,7 @@ def _parts_of_document(document: Any, stem: str) -> list[_Part]:
             waiting += [(one, location, colour, depth + 1, group) for one in reversed(inside)]
             continue
         within = _looks_within(colours, product)
-        found.append(_Part(shapes.GetShape_s(product), location, name, colour, group, within))
+        found.append(_Part(shapes.GetShape_s(product), location, name, colour, group, within, _material_of(product)))
     return found
 
 
@@ -437,6 +439,20 @@ def _name_of(label: Any) -> str:
     label.FindAttribute(names.GetID_s(), attribute)
     name = str(attribute.Get().ToExtString()).strip()
     return "" if name.startswith(_NO_NAMES) or name in _KINDS_ALONE else name
+
+
+def _material_of(label: Any) -> str:
+    """The name of the material of a label; nothing where it has none."""
+    xcaf, nodes = _occ("XCAFDoc"), _occ("TDataStd").TDataStd_TreeNode
+    material, guid = xcaf.XCAFDoc_Material, xcaf.XCAFDoc.MaterialRefGUID_s()
+    if not label.IsAttribute(guid):
+        return ""
+    node, found = nodes(), material()
+    label.FindAttribute(guid, node)
+    if not node.HasFather() or not node.Father().Label().IsAttribute(material.GetID_s()):
+        return ""
+    node.Father().Label().FindAttribute(material.GetID_s(), found)
+    return "" if found.GetName() is None else str(found.GetName().ToCString()).strip()
 
 
 def _looks_within(colours: Any, label: Any) -> Callable[[Any], _Look]:
@@ -557,7 +573,18 @@ def _scene(parts: Sequence[_Part], tolerance: float) -> Scene:
             raise InputError(f"its parts take more than {MOST_TRIANGLES} triangles: allow a coarser tolerance")
     if not items:
         raise InputError("it holds no faces")
-    return together([Scene((item,)) for item in items])
+    scene = together([Scene((item,)) for item in items])
+    made_of = _materials(parts)
+    return replace(scene, sheet=SheetSettings(made_of=made_of)) if made_of else scene
+
+
+def _materials(parts: Sequence[_Part]) -> tuple[tuple[str, str], ...]:
+    """Names of parts, or of the assemblies that they belong to, and what these are made of, where all of it is one
+    material."""
+    found = dict[str, set[str]]()
+    for part in parts:
+        found.setdefault(part.group or part.name, set()).add(part.made_of)
+    return tuple((name, next(iter(said))) for name, said in found.items() if len(said) == 1 and "" not in said)
 
 
 def _corners(shape: Any) -> Floats:
