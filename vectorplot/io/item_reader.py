@@ -733,6 +733,8 @@ class ItemReader(ItemCursor):
             self.fail(f"expected the name of an item, got {self.source.shown(self.at)}")
         if name.startswith(UNSUPPORTED_COMMENTS):
             self.fail(f"{COMMENTS}, not with {name[: 1 + (name[0] == '/')]!r}")
+        if self.source.is_number(self.at + 1):
+            self._unknown_slot(name)
         if name in CAMERA_WORDS and (words[self.at + 1] in VIEWS or self.source.is_number(self.at + 1)):
             self.fail(f"'{name}' is said of the camera: expected 'camera {name} {words[self.at + 1]}'")
         draft = Draft(self.source.string(self.at) if name[0] == '"' else name, self.at)
@@ -743,6 +745,27 @@ class ItemReader(ItemCursor):
                 handler(self, draft)
             elif self._ends(draft):
                 return draft
+
+    def _unknown_slot(self, name: str) -> None:
+        """An error for a word with a number behind a surface or a curve that has no such slot."""
+        # Surfaces and curves are loaded to say what they have.
+        from vectorplot.io.named_shapes import CURVES, SURFACES
+
+        words = self.words
+        kind = next((at for at in range(self.at - 1, -1, -1) if words[at] in KIND_WORDS), 0)
+        families = {"surface": SURFACES, "curve": CURVES}.get(words[kind], {})
+        family = families.get(words[kind + 1])
+        if family is None:
+            return
+        from vectorplot.io.reserved_words import RESERVED
+
+        what, near = words[kind + 1], nearest(name, family.slots)
+        if near:
+            self.fail(f"a {what} has no '{name}' (is '{name}' meant to be '{near}'?)")
+        has = f"a {what} has {', '.join(family.slots)}"
+        if name in RESERVED:
+            self.fail(f"'{name}' is a word of the language, but none of what stands before it: {has}")
+        self.fail(f"there is no '{name}': {has}")
 
     def _ends(self, draft: Draft) -> bool:
         """Whether the item ends before a word that is none of the language's: an unknown colour is taken as gray."""

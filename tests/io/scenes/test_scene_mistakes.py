@@ -203,3 +203,8 @@ def test_torn_texts_raise_input_errors_only(data):
 def test_a_word_that_does_not_belong_to_the_surface_before_it_is_said_to_be_one():
     with pytest.raises(InputError, match=r"'radius' is a word of the language, but none of what stands before it"):
         parse_scene("A surface torus radius 2 1")
+    # What a camera has too is no camera's behind a surface.
+    with pytest.raises(InputError, match=r"1: 'height' is a word .*: a cylinder has radius, bottom, top"):
+        parse_scene("A surface cylinder radius 1 height 2")
+    with pytest.raises(InputError, match=r"1: there is no 'turns': a helix has radius, rise"):
+        parse_scene("A curve helix 1 0.2 turns 3")
