@@ -286,3 +286,11 @@ def test_materials_are_a_column_of_the_list_and_a_field_of_each_part(tmp_path):
         for page in "23"
     ]
     assert b"S235" in pages[0] and b"S235" not in pages[1]
+
+
+@pytest.mark.slow
+def test_parts_that_a_view_does_not_show_have_no_balloon_and_are_told():
+    parts = parse_scene("CASE box 20 20 20\nCORE red box 4 4 4 translation 8 8 8\nLID box 20 20 2 translation 0 0 20")
+    with pytest.warns(vp.InputWarning, match="CORE: no balloon, for nothing is seen in that view; --explode"):
+        sheet = vp.technical_sheet(parts, views="iso", balloons=True, parts_list=True, text="real")
+    assert "CORE" in words_of(sheet) and {"1", "3"} <= set(words_of(sheet))

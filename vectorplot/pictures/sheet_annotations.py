@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -16,6 +17,7 @@ from vectorplot.drawing.drawing import Drawing, Layer, Pen
 from vectorplot.drawing.labels import NO_ITEM
 from vectorplot.drawing.sheets import letter_layer, page_strokes
 from vectorplot.drawing.title_block import Plain
+from vectorplot.errors import InputWarning
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
@@ -349,10 +351,15 @@ def balloon_layers(
     """The balloons of those parts that a view shows, at its left and right, each with a line to an edge of its part.
 
     drawing: of the view on the sheet; reach (2,2): how far the view reaches from the middle of the part, which is at a
-    place on the sheet; no line crosses another. plain: what sets letters.
+    place on the sheet; no line crosses another. plain: what sets letters. An InputWarning names the parts that it does
+    not show.
     """
     anchors = [(number, _anchor(part, drawing, np.array(middle))) for number, part in enumerate(parts, start=1)]
     shown = [(number, anchor) for number, anchor in anchors if anchor is not None]
+    unseen = [part.name for part, (_, anchor) in zip(parts, anchors, strict=True) if anchor is None]
+    if unseen:
+        text = f"{', '.join(unseen)}: no balloon, for nothing is seen in that view; --explode moves parts apart"
+        warnings.warn(text, InputWarning, stacklevel=3)
     if not shown:
         return ()
     from scipy.optimize import linear_sum_assignment
