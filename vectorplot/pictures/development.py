@@ -51,7 +51,7 @@ from vectorplot.surfaces.capped_bodies import Capped
 from vectorplot.surfaces.placed_surface import PlacedSurface
 from vectorplot.surfaces.surface import Surface, is_parametrised, normals
 from vectorplot.surfaces.unrolled import Turned, Unrolled
-from vectorplot.tolerances import COINCIDENT_MM, LEAST_DIVISOR, NO_AZIMUTH_SINE
+from vectorplot.tolerances import COINCIDENT_MM, LEAST_DIVISOR, LEVEL_STEP_OF_DOMAIN, NO_AZIMUTH_SINE
 from vectorplot.words import LineKind, check_word
 
 GAP_MM = 6.0
@@ -81,9 +81,8 @@ PROPORTION = 1.4
 SAME_WAY = math.pi / 2.0 / 4096.0
 """Straight lines with a smaller angle between them run in one direction."""
 
-STARTS, STEPS, SMALL_STEP = (96, 16), 16, 1e-5
-"""Places on a surface from which points of it are looked for, by so many steps; and the part of its domain by which
-directions in the plane are told."""
+STARTS, STEPS = (96, 16), 16
+"""Places on a surface from which points of it are looked for, by so many steps."""
 
 MOST_POINTS = 1 << 13
 """On a side of an unrolled surface."""
@@ -436,7 +435,7 @@ def _labels_on_surface(
     level = _level(normal / np.maximum(norm(normal), LEAST_DIVISOR)[:, None])
     step_u, step_v = _in_parameters(surface, u, v, level)
     least = min(domain.u_end - domain.u_start, domain.v_end - domain.v_start)
-    small = SMALL_STEP * least / np.maximum(np.maximum(np.abs(step_u), np.abs(step_v)), LEAST_DIVISOR)
+    small = LEVEL_STEP_OF_DOMAIN * least / np.maximum(np.maximum(np.abs(step_u), np.abs(step_v)), LEAST_DIVISOR)
     origins = unrolled.placed(u, v)
     back = unrolled.placed(np.clip(u - small * step_u, low[0], high[0]), np.clip(v - small * step_v, low[1], high[1]))
     ahead = unrolled.placed(np.clip(u + small * step_u, low[0], high[0]), np.clip(v + small * step_v, low[1], high[1]))

@@ -252,6 +252,7 @@ class SheetSettings:
     measured_in: str | None = None
     projection: str | None = None
     page: str | None = None
+    hidden: str | None = None
     section: tuple[str, ...] | None = None
     detail_view: tuple[str, ...] | None = None
     breakout: tuple[str, ...] | None = None
@@ -267,7 +268,6 @@ class SheetSettings:
     block_template: str | None = None
     balloons: bool | None = None
     parts_list: bool | None = None
-    hidden: str | None = None
 
     @property
     def said(self) -> dict[str, Any]:
