@@ -754,8 +754,8 @@ JUMP_OF_DOMAIN = 1e-8
 of the domain were cut by three at least fifteen times."""
 
 LEVEL_STEP_OF_DOMAIN = 1e-5
-"""A step of this part of a domain tells which way a direction on a surface leads in its development: a hundred times what
-lengths in the plane are off, and so short that nothing bends in it."""
+"""A step of this part of a domain tells which way a direction on a surface leads in its development: a hundred times
+what lengths in the plane are off, and so short that nothing bends in it."""
 
 APART_OF_DOMAIN = 1e-3
 """Where a sheet meets itself, parts of its domain that the two places are apart at least: nearer ones are one place."""
