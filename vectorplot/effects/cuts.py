@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Hashable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from itertools import product
@@ -654,10 +654,11 @@ def _faces_of_cuts(
     faced = [k for k in range(len(bodies)) if any(not areas[k].is_empty for areas in faces)]
     if not faced:
         return []
-    # Bodies of one group are one part.
-    parts: dict[str | int, list[int]] = {}
+    # Bodies of one group that look alike are one part; what turns or is moved together may be of several.
+    parts: dict[Hashable, list[int]] = {}
     for k in faced:
-        parts.setdefault(bodies[k].item.group or k, []).append(k)
+        item = bodies[k].item
+        parts.setdefault((item.group, item.colour, item.material) if item.group else k, []).append(k)
     part = {k: number for number, own in enumerate(parts.values()) for k in own}
     areas = [[shapely.union_all([every[k] for k in own]) for own in parts.values()] for every in faces]
     ways = ways_of_parts(areas, nothing_beside(scene.bounds))

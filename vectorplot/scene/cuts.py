@@ -70,7 +70,7 @@ class Cut:
     spacing_mm : float, optional
         From stroke to stroke of their hatches on the page, 0.1 or more; where None about 2.4, on narrow faces half as
         much. Where parts touch that of the third one is 0.6 times as much, of the fifth one 1.5 times. Bodies of one
-        group are one part.
+        group that have the same colour and material are one part.
     angle_deg : float
         Of the strokes of the first part, counter-clockwise from what is level in the plane; those of the next one are
         at right angles to them.

@@ -314,6 +314,13 @@ def test_a_cut_that_takes_everything_away_is_named(text, named):
         vp.draw(vp.cut(cube, text), vp.Camera((4, -5, 3)))
 
 
+def test_bodies_of_one_group_but_of_two_colours_are_hatched_as_two():
+    """A shaft and a bush that are moved as one are two parts."""
+    parts = [vp.Item(name, box((9, 9, 9)).moved(x, 0, 0), name, group="both") for name, x in (("red", 0), ("blue", 9))]
+    one, other = cut_scene(vp.cut(vp.Scene(tuple(parts)), "y = 4"), "front").items[2:]
+    assert not np.allclose(one.curves.sections[0].normal, other.curves.sections[0].normal)
+
+
 def test_bodies_of_one_group_are_hatched_alike_and_their_neighbours_otherwise():
     wide, narrow, beside = (box((x, 8, 20)).moved(at, 0, 0) for x, at in ((40, 0), (3, 40), (40, 43)))
     parts = [vp.Item("plate", wide, group="FLANGE"), vp.Item("rim", narrow, group="FLANGE"), vp.Item("lid", beside)]
