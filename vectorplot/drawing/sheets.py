@@ -284,7 +284,7 @@ def panels(
     gap_mm: float = PANEL_GAP_MM,
     letters: str = "a)",
     size_mm: float | str = 3.5,
-    text: Literal["strokes", "real"] = "strokes",
+    text: Literal["strokes", "real"] | None = None,
     title: str = "",
 ) -> Drawing:
     """A figure of drawings in a row, which stand on one line, with letters above them.
@@ -299,8 +299,8 @@ def panels(
         How the first one is called, with the letter that counts: "a)", "(a)", "A"; nothing for no letters.
     size_mm : float or str
         Height of the capitals of letters, or their size of type as in "10pt".
-    text : {"strokes", "real"}
-        Letters of a pen, or texts in a font.
+    text : {"strokes", "real"}, optional
+        Letters of a pen, or texts in a font (None: texts, if some drawing has texts).
     title : str
         What the figure shows.
 
@@ -343,6 +343,8 @@ def panels(
     whole = sheet.drawing()
     if found is None:
         return whole
+    if text is None:
+        text = "real" if any(layer.texts for drawing in drawings for layer in drawing.layers) else "strokes"
     set_ = lettered if text == "strokes" else typeset
     names = [letters[: found.start()] + chr(ord(found[0]) + k) + letters[found.end() :] for k in range(len(drawings))]
     made = [set_(name, (x, high + LETTER_GAP * size), size_mm=size) for name, x in zip(names, left, strict=False)]

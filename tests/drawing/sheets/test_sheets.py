@@ -122,6 +122,13 @@ def test_what_is_wrong_with_panels_is_told(given, told):
         vp.panels([])
 
 
+@pytest.mark.parametrize("text", ["strokes", "real"])
+def test_letters_of_panels_are_those_of_the_panels(text):
+    named = vp.Scene((vp.Item("A", BOXES[0]),), labels=(vp.Label("A", (0, 0, 0)),))
+    figure = vp.panels([vp.draw(one, "front", page="scale 5:1", text=text) for one in (named, BOXES[1])])
+    assert bool(figure.layers[-1].texts) == (text == "real")
+
+
 def test_a_shared_scale_gives_a_figure_its_width():
     # Beside each picture stands something that does not grow: a margin.
     first = [vp.draw(one, "front", page="scale 1") for one in BOXES]
