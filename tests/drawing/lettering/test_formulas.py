@@ -13,6 +13,10 @@ from vectorplot.errors import InputError
     ("formula", "letters"),
     [
         (r"\alpha_1^2", "α₁²"),
+        (r"e^{3z}", "e³ᶻ"),
+        (r"x_{max}+v_{ij}^{(k)}", "xₘₐₓ+vᵢⱼ⁽ᵏ⁾"),
+        (r"\sigma^{\beta}_\rho", "σᵝᵨ"),
+        (r"x_b^q", "xbq"),
         (r"\frac{a}{b}", "a/b"),
         (r"\mathbf{n}", "n"),
         (r"\vec{v}", "v\u20d7"),
