@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from functools import partial
 
 from vectorplot.errors import InputError
 
@@ -69,11 +70,17 @@ _TABLES = re.compile(r"\\(?:begin|end)\{(?:[pbvVB]?matrix|smallmatrix|cases|alig
 _ESCAPES = frozenset(",;:!> {}|_%&#$\\")
 
 
+_FIGURES = str.maketrans("0123456789+-n", "⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻ⁿ"), str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
+"""High and low characters that most fonts have."""
+
 _HIGH = str.maketrans(
     "0123456789+-=()abcdefghijklmnoprstuvwxyzABDEGHIJKLMNOPRTUWβγδφχθ",
     "⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻⁼⁽⁾ᵃᵇᶜᵈᵉᶠᵍʰⁱʲᵏˡᵐⁿᵒᵖʳˢᵗᵘᵛʷˣʸᶻᴬᴮᴰᴱᴳᴴᴵᴶᴷᴸᴹᴺᴼᴾᴿᵀᵁᵂᵝᵞᵟᵠᵡᶿ",
 )
 _LOW = str.maketrans("0123456789+-=()aehijklmnoprstuvxβγρφχ", "₀₁₂₃₄₅₆₇₈₉₊₋₌₍₎ₐₑₕᵢⱼₖₗₘₙₒₚᵣₛₜᵤᵥₓᵦᵧᵨᵩᵪ")
+_Small = tuple[dict[int, int], dict[int, int]]
+"""High and low characters for others."""
+
 _FRACTION = re.compile(r"\\frac\s*\{([^{}]*)\}\s*\{([^{}]*)\}")
 _MARKED = re.compile(rf"\\({'|'.join(_MARKS)})(?![A-Za-z])\s*(?:\{{([^{{}}]*)\}}|(\\[A-Za-z]+|\S))")
 _RAISED = re.compile(r"([\^_])(?:\{([^{}]*)\}|(\S))")
@@ -112,7 +119,12 @@ def checked_formula(formula: str) -> str:
 def without_formulas(text: str) -> str:
     r"""The text with formulas in plain letters: ``$\alpha_1^2$`` is α₁²; \$ is a dollar. What has no such letters,
     roots and matrices, loses its form."""
-    return FORMULA.sub(lambda formula: _letters(checked_formula(formula.group(1))), text).replace(r"\$", "$")
+    return _plain(text, _FIGURES)
+
+
+def _plain(text: str, small: _Small) -> str:
+    """The same with these high and low characters."""
+    return FORMULA.sub(lambda formula: _letters(checked_formula(formula.group(1)), small), text).replace(r"\$", "$")
 
 
 def without_formulas_in_strokes(text: str) -> str:
@@ -121,20 +133,20 @@ def without_formulas_in_strokes(text: str) -> str:
         for word in _WORD.findall(checked_formula(formula)):
             if word not in _LETTERED:
                 raise InputError(f"there are no strokes for \\{word} of the formula ${formula}$")
-    return without_formulas(text)
+    return _plain(text, (_HIGH, _LOW))
 
 
-def _letters(formula: str) -> str:
+def _letters(formula: str, small: _Small) -> str:
     found = _FRACTION.sub(r"\1/\2", formula)
-    found = _MARKED.sub(_marked, found)
+    found = _MARKED.sub(partial(_marked, small), found)
     found = re.sub(r"\\([A-Za-z]+)( ?)", _sign, found)
-    found = _RAISED.sub(_raised, re.sub(r"\\[^A-Za-z]", " ", found))
+    found = _RAISED.sub(partial(_raised, small), re.sub(r"\\[^A-Za-z]", " ", found))
     return re.sub(r"[{}]", "", found).strip()
 
 
-def _marked(accent: re.Match[str]) -> str:
+def _marked(small: _Small, accent: re.Match[str]) -> str:
     """Each letter with the mark behind it."""
-    letters = _letters(accent.group(2) or accent.group(3) or "")
+    letters = _letters(accent.group(2) or accent.group(3) or "", small)
     return "".join(letter + _MARKS[accent.group(1)] if letter.strip() else letter for letter in letters)
 
 
@@ -145,7 +157,7 @@ def _sign(word: re.Match[str]) -> str:
     return _SIGNS[name] + blank if name in _SIGNS else f"{name} "
 
 
-def _raised(part: re.Match[str]) -> str:
+def _raised(small: _Small, part: re.Match[str]) -> str:
     inner = part.group(2) or part.group(3) or ""
-    made = inner.translate(_HIGH if part.group(1) == "^" else _LOW)
+    made = inner.translate(small[0] if part.group(1) == "^" else small[1])
     return made if not set(made) & set(inner) else inner
