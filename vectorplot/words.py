@@ -433,10 +433,15 @@ def check_word(what: str, word: object, known: Iterable[str]) -> None:
         raise unknown(what, word, words)
 
 
+OF_MESHES = ("stl", "obj", "ply", "off")
+"""Suffixes of meshes, which are no pictures."""
+
 OF_PLOTTERS = ("hpgl", "hpg", "plt", "gcode", "nc", "ngc", "tap")
 """Suffixes of the languages of plotters, which other programs write."""
 
 
 def format_hint(suffix: str) -> str:
     """What is said behind a message that a suffix, without its point, is no format."""
+    if suffix.lower() in OF_MESHES:
+        return "; vectorplot convert writes shapes as meshes"
     return "; vpype writes it from an .svg" if suffix.lower() in OF_PLOTTERS else ""

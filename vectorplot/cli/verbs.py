@@ -79,7 +79,9 @@ def meant_option(error: click.NoSuchOption) -> str:
     known = [
         name for option in error.ctx.command.get_params(error.ctx) for name in (*option.opts, *option.secondary_opts)
     ]
-    near = nearest(error.option_name.lstrip("-").lower(), (name[2:] for name in known if name[:2] == "--"))
+    meant, long = error.option_name.lstrip("-").lower(), [name[2:] for name in known if name[:2] == "--"]
+    begun = [name for name in long if name.startswith(meant)]
+    near = begun[0] if len(begun) == 1 else nearest(meant, long)
     if near:
         return f" Did you mean '--{near}'?"
     others = [

@@ -35,3 +35,8 @@ def test_a_scene_is_written_to_standard_output(two):
 def test_pictures_are_left_to_the_other_commands(two):
     result = CliRunner().invoke(vectorplot, ["convert", str(two), "-o", "two.svg"])
     assert result.exit_code == 2 and "must end in one of .stl, .obj, .ply, .off, .scene" in result.output
+
+
+def test_a_picture_as_a_mesh_leads_to_convert(two):
+    result = CliRunner().invoke(vectorplot, ["draw", str(two), "-o", "two.stl"])
+    assert result.exit_code == 2 and "vectorplot convert writes shapes as meshes" in result.output
