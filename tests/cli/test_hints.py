@@ -26,6 +26,7 @@ TURNED = 'A red surface function "cos(u)" "sin(u)" "v"'
         ("A red translation solid\n base_points 0 0 0 1 0 0 1 1 0\n trans_vector 0 0 1", [], "parted by commas"),
         (f"// hello\n{BOX}", [], "comments begin with #"),
         (BOX, ["--shadows", "exact"], "It is an option of paint, render"),
+        (BOX, ["--colour-log"], "Did you mean '--colour-logarithmic'?"),
         (f"{BOX} // hello", [], "x.scene:1: comments begin with #, not with '//'"),
         (f"//{BOX}", [], "comments begin with #"),
         (f"; hello\n{BOX}", [], "comments begin with #, not with ';'"),

@@ -875,7 +875,7 @@ def _with_fills_of_bodies(drawing: Drawing, bands: Sequence[tuple[str, tuple[str
     under each other."""
     body_of = {band: number for number, (_, own) in enumerate(bands, len(drawing.items)) for band in own}
     item = np.array([body_of.get(name, number) for number, name in enumerate(drawing.items)], dtype=np.intp)
-    if not len(item):
+    if not any(isinstance(mark, Fills) and len(mark) for layer in drawing.layers for mark in layer.marks):
         return drawing
 
     def of_bodies(mark: Any) -> Any:
