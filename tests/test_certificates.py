@@ -542,7 +542,7 @@ def test_surfaces_of_all_families_are_proved(name, eye):
 
 
 @pytest.mark.slow
-@pytest.mark.spread
+@pytest.mark.spread(parts=5)
 @pytest.mark.parametrize("hidden", ["none", "dashed", "solid"])
 @pytest.mark.parametrize("name", SMOOTH)
 def test_right_drawings_of_surfaces_are_not_called_wrong(name, hidden):

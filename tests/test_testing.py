@@ -21,8 +21,8 @@ from vectorplot.testing import (
     edge_points,
     visible_by_rays,
 )
-from vectorplot.testing.rays import triangulated
 from vectorplot.testing.shapes import box, bumpy_icosphere, grid_graph, honeycomb, prism, scene_of, torus_mesh, without
+from vectorplot.testing.sight_rays import triangulated
 from vectorplot.words import LineKind
 
 LINE = [(10.0, 10.0), (50.0, 10.0), (50.0, 40.0)]

@@ -19,6 +19,9 @@ from vectorplot.testing.shapes import box
 NEAR, APART = 1e-7, 1e-5
 """What ends so near on its way, as a part of it, is met; places so far apart along an edge are seen alike."""
 
+FAR = 1000.0
+"""Rays are so long."""
+
 ON_PAGE_MM, ON_EDGE = 1e-5, 1e-6
 """A stroke so near shows a point; a ray so near to an edge, in units of scenes about 10 wide, meets it."""
 
@@ -74,8 +77,9 @@ class Room:
         self.parallel, self.eye = camera.parallel, np.array(camera.eye)
         self.way = np.array(camera.target) - self.eye
 
-    def first(self, start: np.ndarray, end: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """The triangle that segments (n,3) meet first, -1 for none, and after which part of their way."""
+    def first(self, start: np.ndarray, end: np.ndarray, near: float = NEAR) -> tuple[np.ndarray, np.ndarray]:
+        """The triangle that segments (n,3) meet first, -1 for none, and after which part of their way, which is no
+        smaller than near."""
         if not len(start):
             return np.zeros(0, dtype=int), np.zeros(0)
         a, b, c = (self.corners[:, k] for k in range(3))
@@ -88,7 +92,7 @@ class Room:
             inside = np.ones(t.shape, dtype=bool)
             for one, other in ((a, b), (b, c), (c, a)):
                 inside &= np.einsum("ntk,tk->nt", np.cross(other - one, point - one), normal) >= 0.0
-        t = np.where(inside & (t > NEAR), t, np.inf)
+        t = np.where(inside & (t > near), t, np.inf)
         which = t.argmin(axis=1)
         part = t[np.arange(len(t)), which]
         return np.where(np.isfinite(part), which, -1), part
@@ -199,15 +203,16 @@ def unfounded(seed: int, depth: int, samples: int) -> tuple[int, int]:
     found = np.zeros(len(places), dtype=bool)
     start, way = sight(drawing, room, places)
     for _ in range(depth):
-        met, part = room.first(start, start + 1000.0 * way)
+        met, part = room.first(start, start + FAR * way, NEAR / FAR)
         mirror = np.where(met >= 0, room.mirror[met], -1)
         towards = np.einsum("nk,nk->n", way, np.array(room.normal)[mirror]) < 0.0
         on = (mirror >= 0) & towards
         normal = np.array(room.normal)[np.where(on, mirror, 0)]
-        start = np.where(on[:, None], start + 1000.0 * np.where(np.isfinite(part), part, 0.0)[:, None] * way, np.inf)
+        start = np.where(on[:, None], start + FAR * np.where(np.isfinite(part), part, 0.0)[:, None] * way, np.inf)
         way = way - 2.0 * np.einsum("nk,nk->n", way, normal)[:, None] * normal
-        _, part = room.first(np.where(on[:, None], start, 0.0), np.where(on[:, None], start, 0.0) + 1000.0 * way)
-        found |= on & met_edge(room, start, way, 1000.0 * part, items[which])
+        begin = np.where(on[:, None], start, 0.0)
+        _, part = room.first(begin, begin + FAR * way, NEAR / FAR)
+        found |= on & met_edge(room, start, way, FAR * part, items[which])
         if not on.any():
             break
         start = np.where(on[:, None], start, 1e9)

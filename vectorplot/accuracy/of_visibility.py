@@ -26,8 +26,9 @@ from vectorplot.shading.depth_buffers import depth_buffer
 from vectorplot.shading.screen import raster_system, screen_triangles
 from vectorplot.surfaces.tori import Torus
 from vectorplot.testing.curves import Segments, Tree
-from vectorplot.testing.rays import triangulated, visible_by_rays
+from vectorplot.testing.rays import visible_by_rays
 from vectorplot.testing.shapes import rotated_boxes
+from vectorplot.testing.sight_rays import triangulated
 from vectorplot.textbook.framebuffer import points_visible
 from vectorplot.tolerances import CLEARANCE_OF_EXTENT, ON_STROKE_MM, OWN_MEETING, SMALLEST_ZERO, VERTEX_NOISE_OF_EXTENT
 from vectorplot.visibility.polyhedra.hidden_lines import Segments as Segments_of_hidden_lines

@@ -17,7 +17,8 @@ from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.vectors import dot, norm
 from vectorplot.scene.scene import Scene
 from vectorplot.surfaces.surface import ImplicitSurface, Surface, hessians, is_implicit, is_parametrised
-from vectorplot.testing.rays import edges_of_faces, inside, nearest_places, visible_by_rays
+from vectorplot.testing.rays import inside, nearest_places, visible_by_rays
+from vectorplot.testing.sight_rays import edges_of_faces
 from vectorplot.tolerances import CLEARANCE_OF_EXTENT, COVERED_OF_TOLERANCE
 from vectorplot.words import LineKind
 
