@@ -244,7 +244,7 @@ def make_picture(
     source: Source,
     out: str,
     format_: str,
-    picture: Callable[[Scene, Report], Drawing | Image | Scene],
+    picture: Callable[[Scene, Report], Drawing | Image],
     *,
     quiet: bool,
     explain: bool,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -42,7 +42,7 @@ def convert(
     Smooth surfaces become triangles; curves, lights and cuts are left out of meshes.
     """
 
-    def shapes(scene: Scene, _: Report) -> Scene:
+    def shapes(scene: Scene, _: Report) -> Any:
         if not union:
             return scene
         from vectorplot.scene.united import united
