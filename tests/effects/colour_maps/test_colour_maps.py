@@ -434,7 +434,7 @@ def test_bands_are_filled_as_parts_of_their_body():
 @pytest.mark.slow
 def test_nothing_shines_through_between_bands_of_lit_surfaces():
     """In a picture on white and on black paper all pixels but those at the outlines are the same."""
-    svg = write(vp.paint(replace(RING, colouring=Colouring("z")), page="70x50", tolerance_mm=0.1), "svg")
+    svg = write(vp.paint(replace(RING, colouring=Colouring("z")), page="100x70", tolerance_mm=0.1), "svg")
     shown = [
         subprocess.run(("rsvg-convert", "-b", paper), input=svg, capture_output=True, check=True).stdout
         for paper in ("white", "black")
