@@ -380,8 +380,7 @@ def _laid(drawing: Drawing, setting: Setting, tolerance_mm: float, curved: bool)
             curves = curves.without(_tip(setting), tolerance_mm / setting.scale)
         paths, plenty = on_paper(curves, strokes.paths, setting, CHORD_SHARE * tolerance_mm)
         enough &= plenty
-        if len(paths):
-            layers.append(replace(layer, marks=(curved_strokes(paths, tolerance_mm) if curved else paths,)))
+        layers.append(replace(layer, marks=(curved_strokes(paths, tolerance_mm) if curved else paths,)))
     return layers, enough
 
 
@@ -551,7 +550,7 @@ def anamorphosis(
     >>> import vectorplot as vp
     >>> from vectorplot import geometry
     >>> laid = vp.anamorphosis(geometry.box((2, 2, 2)), radius_mm=20)
-    >>> [layer.name for layer in laid.layers]
+    >>> [layer.name for layer in laid.layers if len(layer.strokes[0])]
     ['visible', 'contour', 'mirror', 'viewer', 'label']
     """
     check_options(locals())
@@ -614,7 +613,7 @@ def anamorphosis_view(
     >>> import vectorplot as vp
     >>> from vectorplot import geometry
     >>> seen = vp.anamorphosis_view(geometry.box((2, 2, 2)), radius_mm=20)
-    >>> [layer.name for layer in seen.layers]
+    >>> [layer.name for layer in seen.layers if len(layer.strokes[0])]
     ['visible', 'contour', 'paper visible', 'paper contour', 'mirror']
     """
     check_options(locals())
@@ -727,7 +726,7 @@ def on_page(drawing: Drawing, setting: Setting, page: Page | str | None, toleran
     marks = _marks(setting, points, highest)
     foot = curved_strokes(marks.mirror, tolerance_mm) if curved else marks.mirror
     signs = {"mirror": foot, "viewer": marks.viewer, "label": marks.label}
-    layers += [Layer(name, MARK_PEN, (mark,)) for name, mark in signs.items() if len(mark)]
+    layers += [Layer(name, MARK_PEN, (mark,)) for name, mark in signs.items()]
     every = np.concatenate([points, marks.mirror.points, marks.viewer.points, marks.label.points])
     return _paged(drawing, layers, every, page)
 
@@ -766,7 +765,7 @@ def as_seen(drawing: Drawing, setting: Setting, page: Page | str | None, toleran
     ]
     if mirror.kind != "none":
         highest = float(setting.heights(_outline(drawing)).max())
-        rim = mirror.height if np.isfinite(mirror.height) else np.ceil(highest)
+        rim = mirror.height if np.isfinite(mirror.height) else highest + ABOVE_FOOT * mirror.radius
         body, lines = _body_seen(setting, rim)
         laid, _ = _laid(drawing, setting, tolerance_mm, False)
         for layer in laid:
