@@ -556,8 +556,14 @@ def anamorphosis(
     check_options(locals())
     how = {"curves": curves, "budget": budget, "jobs": jobs, "explain": explain}
     drawn = picture_of(picture, camera, **how)
-    setting = {"mirror": mirror, "radius_mm": radius_mm, "height_mm": height_mm, "viewer": viewer, "seen_mm": seen_mm}
-    work = {"jobs": jobs, "progress": progress, "explain": explain}
+    setting: dict[str, Any] = {
+        "mirror": mirror,
+        "radius_mm": radius_mm,
+        "height_mm": height_mm,
+        "viewer": viewer,
+        "seen_mm": seen_mm,
+    }
+    work: dict[str, Any] = {"jobs": jobs, "progress": progress, "explain": explain}
     return anamorphosis_of(drawn, on_page, **setting, page=page, curves=curves, tolerance_mm=tolerance_mm, **work)
 
 
@@ -619,8 +625,14 @@ def anamorphosis_view(
     check_options(locals())
     how = {"curves": curves, "budget": budget, "jobs": jobs, "explain": explain}
     drawn = picture_of(picture, camera, **how)
-    setting = {"mirror": mirror, "radius_mm": radius_mm, "height_mm": height_mm, "viewer": viewer, "seen_mm": seen_mm}
-    work = {"jobs": jobs, "progress": progress, "explain": explain}
+    setting: dict[str, Any] = {
+        "mirror": mirror,
+        "radius_mm": radius_mm,
+        "height_mm": height_mm,
+        "viewer": viewer,
+        "seen_mm": seen_mm,
+    }
+    work: dict[str, Any] = {"jobs": jobs, "progress": progress, "explain": explain}
     return anamorphosis_of(drawn, as_seen, **setting, page=page, curves=curves, tolerance_mm=tolerance_mm, **work)
 
 
@@ -697,7 +709,7 @@ def _shown(
         if needed <= enlarged:
             break
         enlarged = needed
-    left_out = sum(len(mark) for layer in drawing.layers for mark in (*layer.fills, *layer.texts))
+    left_out = sum(len(mark) for layer in drawing.layers for mark in layer.marks if not isinstance(mark, STROKES))
     if left_out:
         text = f"anamorphosis: {left_out} filled polygons and texts are left out: only strokes can be bent"
         warnings.warn(text, InputWarning, stacklevel=2)
