@@ -65,7 +65,7 @@ from vectorplot.visibility.smooth.curve_families import (
 from vectorplot.visibility.smooth.rays import Balls, Targets, meetings_along, targets_of
 from vectorplot.visibility.smooth.scene_curves import Rims, tracing_of
 from vectorplot.visibility.smooth.sheets import ImplicitSheet, ParametricSheet, Sheets
-from vectorplot.visibility.smooth.traced_curves import Curves, no_curves, together
+from vectorplot.visibility.smooth.traced_curves import Curves, no_curves, together, with_merged_families
 from vectorplot.words import LineKind
 
 OUTLINES = (LineKind.CONTOUR, LineKind.BOUNDARY)
@@ -142,7 +142,8 @@ def light_lines(
             for plain, smooth in found:
                 straight.append(replace(plain, lamp=np.full(len(plain), place)))
                 curves.append(replace(smooth, lamp=np.full(len(smooth), place)))
-    return LightLines(joined_lines(straight), together(curves))
+    # Shadows of all lamps on sheets that are asked as one are asked as one.
+    return LightLines(joined_lines(straight), *with_merged_families([together(curves)], sheets))
 
 
 FAR_LAMP = 1e7
@@ -849,4 +850,4 @@ def _in_eye(eye: _Eye, rays: _Rays, curves: Curves, kind: LineKind, family_of: F
         families=tuple(family_of(eye, rays, *each) for each in pair.T.tolist()),
         side=np.zeros(len(curves), dtype=np.intp),
     )
-    return found
+    return with_merged_families([found], eye.sheets)[0]

@@ -396,11 +396,12 @@ def meetings_along(view: View, sheets: Sheets, targets: Targets, points: Floats,
         sample, triangle = targets.near_boxes(there, there)
         number = targets.sheet[triangle]
         is_round = balls.known[number]
-        for found in (
-            _meetings(view, sheets, targets, samples, way, (sample[~is_round], triangle[~is_round])),
-            balls.met(view, own, way, *np.divmod(np.unique((sample * len(sheets) + number)[is_round]), len(sheets))),
-        ):
-            parts.append(replace(found, sample=found.sample + first))
+        pair = np.unique((sample * len(sheets) + number)[is_round])
+        found = [balls.met(view, own, way, *np.divmod(pair, len(sheets)))]
+        if not is_round.all():
+            others = sample[~is_round], triangle[~is_round]
+            found.append(_meetings(view, sheets, targets, samples, way, others))
+        parts += [replace(each, sample=each.sample + first) for each in found]
     return records.joined(parts)
 
 
