@@ -187,7 +187,7 @@ def test_pens_layers_kinds_and_items_stay():
     found = vp.anamorphosis(drawn)
     assert found.items == ("RING", "BOX") and found.title == "Two"
     assert [(one.name, one.pen) for one in found.layers[:-3]] == [(one.name, one.pen) for one in drawn.layers]
-    assert [one.name for one in found.layers[-3:]] == ["mirror", "viewer", "label"]
+    assert [one.name for one in found.layers[-3:]] == ["mirror", "viewer", "notes"]
     for before, after in zip(drawn.layers, found.layers, strict=False):
         (one,), (other,) = before.strokes, after.strokes
         assert one.item.tolist() == other.item.tolist() and one.closed.tolist() == other.closed.tolist()
@@ -306,13 +306,12 @@ def run(*words):
 @pytest.mark.slow
 def test_the_command_writes_drawing_and_preview(tmp_path):
     cube = tmp_path / "cube.scene"
-    cube.write_text("CUBE red box 1 1 1")
+    cube.write_text("CUBE red box solid 1 1 1")
     out, preview = tmp_path / "laid.svg", tmp_path / "seen.svg"
-    result = run(
-        cube, "-o", out, "--mirror", "cone", "--radius", "3cm", "--preview", preview, "--hidden", "dashed", "-q"
-    )
+    looks = ["--hidden", "dashed", "--hatch", "even", "--halo", "0.5"]
+    result = run(cube, "-o", out, "--mirror", "cone", "--radius", "3cm", "--preview", preview, *looks, "-q")
     assert result.exit_code == 0, result.output
-    assert b"mirror" in out.read_bytes() and b"paper" in preview.read_bytes()
+    assert b"mirror" in out.read_bytes() and b"hatch" in out.read_bytes() and b"paper" in preview.read_bytes()
     assert run(cube, "-o", out, "--preview", out).exit_code == 2
     assert run(cube, "-o", out, "--mirror", "ball").exit_code == 2
 

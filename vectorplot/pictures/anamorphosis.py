@@ -401,7 +401,7 @@ class Marks:
 
     mirror: Paths
     viewer: Paths
-    label: Paths
+    notes: Paths
 
 
 def _polylines(lines: Sequence[Floats]) -> Paths:
@@ -521,7 +521,7 @@ def anamorphosis(
     -------
     Drawing
         The layers of the picture with their pens; then mirror, the circle that it stands in and its middle; viewer, an
-        arrow to the eye, or a cross below it; and label, what kind of mirror it is and where the eye has to be.
+        arrow to the eye, or a cross below it; and notes, what kind of mirror it is and where the eye has to be.
 
     Raises
     ------
@@ -551,7 +551,7 @@ def anamorphosis(
     >>> from vectorplot import geometry
     >>> laid = vp.anamorphosis(geometry.box((2, 2, 2)), radius_mm=20)
     >>> [layer.name for layer in laid.layers if len(layer.strokes[0])]
-    ['visible', 'contour', 'mirror', 'viewer', 'label']
+    ['visible', 'contour', 'mirror', 'viewer', 'notes']
     """
     check_options(locals())
     how = {"curves": curves, "budget": budget, "jobs": jobs, "explain": explain}
@@ -737,9 +737,9 @@ def on_page(drawing: Drawing, setting: Setting, page: Page | str | None, toleran
     highest = 0.0 if setting.mirror.kind == "none" else float(setting.heights(_outline(drawing)).max())
     marks = _marks(setting, points, highest)
     foot = curved_strokes(marks.mirror, tolerance_mm) if curved else marks.mirror
-    signs = {"mirror": foot, "viewer": marks.viewer, "label": marks.label}
+    signs = {"mirror": foot, "viewer": marks.viewer, "notes": marks.notes}
     layers += [Layer(name, MARK_PEN, (mark,)) for name, mark in signs.items()]
-    every = np.concatenate([points, marks.mirror.points, marks.viewer.points, marks.label.points])
+    every = np.concatenate([points, marks.mirror.points, marks.viewer.points, marks.notes.points])
     return _paged(drawing, layers, every, page)
 
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from vectorplot.cli.commands.draw import HATCHING_OPTIONS, hatching_from
 from vectorplot.cli.option_values import length, of_option, point
 from vectorplot.cli.options import (
     BUDGET,
@@ -16,6 +17,7 @@ from vectorplot.cli.options import (
     DRAWING_FORMATS,
     EXAGGERATION,
     EXPLAIN,
+    HALO,
     INPUT,
     JOBS,
     LANDSCAPE,
@@ -100,7 +102,9 @@ _FILES = ("scene_file", "out", "format_", "quiet", "explain", "exaggeration", "m
     lines_option("Kinds of lines", default=None, note="  [default: all but edges]"),
     crease_angle_option("Sharper edges are creases."),
     *STROKE_OPTIONS,
+    HALO,
     REFLECTIONS,
+    *HATCHING_OPTIONS,
     LAYERS,
     click.option(
         "--curves", type=of_option("curves"), default="bezier", help="How curves and circles of meshes leave."
@@ -165,7 +169,8 @@ def _drawn(source: Source, told: Told, scene: Scene, report: Report) -> Drawn:
 
         return picture_of(read_drawing(source.paths[0]), None)
     lined, keywords = told.with_lines(scene)
-    return picture_of(lined, **keywords, explain=report.explain)
+    hatch, rest = hatching_from(keywords)
+    return picture_of(lined, **rest, hatch=hatch, explain=report.explain)
 
 
 def _preview(source: Source, told: Told, setting: dict[str, Any], path: str, out: str) -> Companion:
