@@ -277,18 +277,39 @@ def test_the_largest_picture_that_is_told_fits():
 
 
 @pytest.mark.slow
-def test_a_picture_without_strokes_and_filled_ones():
+def test_a_picture_without_strokes_is_none():
     with pytest.raises(vp.InputError, match="no strokes"):
         vp.anamorphosis(vp.Drawing(100, 80, ()))
-    painted = vp.paint(vp.Scene((vp.Item("BOX", box((2, 2, 2))),)), lines="contour,crease")
+
+
+@pytest.mark.slow
+def test_filled_polygons_are_bent_too_but_not_around_a_cone():
+    scene = vp.Scene((vp.Item("BOX", box((2, 2, 2))),), (vp.Light((1.0, -2.0, 3.0), parallel=True),))
+    painted = vp.paint(scene, lines="contour", page="80x60")
+    (before,) = painted.layers[0].fills
+    found = vp.anamorphosis(painted)
+    (fills,) = found.layers[0].fills
+    assert len(fills) == len(before) and fills.kind.tolist() == before.kind.tolist()
+    assert (np.diff(fills.offsets) >= np.diff(before.offsets)).all()
+    # A polygon covers what its sides go round: those of a border of strokes cover as much as these say.
+    polygons = [shapely.Polygon(own) for own in np.split(fills.points, fills.offsets[1:-1]) if len(own) > 2]
+    (outline,) = (layer for layer in found.layers if layer.name == "contour")
+    rings = one_mark(outline.marks).beziers.flattened(1e-3)
+    border = shapely.Polygon(rings[0][rings[1][0] : rings[1][1]])
+    assert (
+        shapely.union_all(polygons).buffer(0.02).symmetric_difference(border.buffer(0.02)).area < 0.05 * border.length
+    )
     with pytest.warns(vp.InputWarning, match="filled polygons and texts are left out"):
-        assert len(vp.anamorphosis(painted).layers) > 3
+        assert not any(layer.fills for layer in vp.anamorphosis(painted, mirror="cone").layers)
+    seen = vp.anamorphosis_view(painted)
+    names = [layer.name for layer in seen.layers if any(map(len, layer.marks))]
+    assert names.index("body") < names.index(painted.layers[0].name) < names.index("mirror")
 
 
 @pytest.mark.slow
 def test_the_view_from_the_eye_shows_the_picture_as_it_is():
     seen = vp.anamorphosis_view(picture())
-    lines, paper, outline = seen.layers
+    paper, lines, outline = seen.layers
     assert (lines.name, paper.name, outline.name) == ("lines", "paper lines", "mirror")
     (paths,) = lines.strokes
     setting = setting_of("cylinder")

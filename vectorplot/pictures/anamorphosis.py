@@ -13,11 +13,11 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.curves.bezier import bezier_points, bezier_tangents, split
 from vectorplot.drawing.drawing import STROKES, CurvedStrokes, Drawing, Layer, Paths, Pen
+from vectorplot.drawing.fills import FillKind, Fills
 from vectorplot.drawing.labels import NO_ITEM
 from vectorplot.drawing.letters import lettered
 from vectorplot.drawing.sheets import moved_mark
 from vectorplot.drawing.stroke_curves import CHORD_SHARE, curved_strokes, one_mark
-from vectorplot.drawing.strokes import chosen
 from vectorplot.effects.curved_mirrors import CurvedMirror
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.geometry import ragged
@@ -25,7 +25,7 @@ from vectorplot.geometry.budget import may_stop, threads_of
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.chord_refinement import Traces, refined, straight_between
 from vectorplot.geometry.elementary import arctan2
-from vectorplot.geometry.polylines import closed_round
+from vectorplot.geometry.polylines import closed_round, take
 from vectorplot.geometry.vectors import cross, dot, norm, normalize
 from vectorplot.io.anything import scene_of
 from vectorplot.pictures.draw import draw
@@ -65,6 +65,9 @@ OF_DRAWING = 0.4
 ENLARGED, MOST_ENLARGED = 8.0, 32.0
 """How much the paper enlarges a picture is taken for before it is known, and how much is drawn finer for at most: near
 the tip of a cone it grows without end, and no error is seen there."""
+
+LARGER = 1.25
+"""A drawing that the paper enlarges more than it was drawn for is drawn again for so many times as much as is known."""
 
 SIZE_HALVINGS, HEIGHT_HALVINGS = 24, 40
 """Until it is known how large a picture may be, to the digits that are told, and how high it is, to a billionth of a
@@ -372,16 +375,56 @@ def on_paper(curves: Curves, strokes: Paths, setting: Setting, tolerance_mm: flo
 def _laid(drawing: Drawing, setting: Setting, tolerance_mm: float, curved: bool) -> tuple[list[Layer], bool]:
     """The layers of a drawing on the paper, and whether there were points enough."""
     layers, enough = [], True
-    tip = setting.middle if setting.mirror.kind == "cone" else None
     for layer in drawing.layers:
-        strokes = one_mark(tuple(mark for mark in layer.marks if isinstance(mark, STROKES)))
-        curves = Curves.of(strokes)
-        if tip is not None:
-            curves = curves.without(_tip(setting), tolerance_mm / setting.scale)
-        paths, plenty = on_paper(curves, strokes.paths, setting, CHORD_SHARE * tolerance_mm)
-        enough &= plenty
-        layers.append(replace(layer, marks=(curved_strokes(paths, tolerance_mm) if curved else paths,)))
+        marks: list[Paths | CurvedStrokes | Fills] = []
+        for mark in _bent(layer, setting):
+            if isinstance(mark, Fills):
+                bent, plenty = fills_on_paper(mark, setting, tolerance_mm)
+                marks.append(bent)
+            else:
+                strokes = one_mark((mark,))
+                curves = Curves.of(strokes)
+                if setting.mirror.kind == "cone":
+                    curves = curves.without(_tip(setting), tolerance_mm / setting.scale)
+                paths, plenty = on_paper(curves, strokes.paths, setting, CHORD_SHARE * tolerance_mm)
+                marks.append(curved_strokes(paths, tolerance_mm) if curved else paths)
+            enough &= plenty
+        layers.append(replace(layer, marks=tuple(marks)))
     return layers, enough
+
+
+def _bent(layer: Layer, setting: Setting | None) -> list[Paths | CurvedStrokes | Fills]:
+    """The marks of a layer that a mirror shows: strokes, and, but for the paper, filled polygons; these not in a cone,
+    where one with the tip in it would be all around."""
+    filled = layer.plotted and (setting is None or setting.mirror.kind != "cone")
+    return [mark for mark in layer.marks if isinstance(mark, STROKES) or (filled and isinstance(mark, Fills))]
+
+
+def fills_on_paper(fills: Fills, setting: Setting, tolerance_mm: float) -> tuple[Fills, bool]:
+    """Filled polygons as they are on the paper, each in the mean of the colours of its corners, and whether there were
+    points enough."""
+    size = np.diff(fills.offsets)
+    none = np.zeros(len(fills), dtype=np.intp)
+    sides = Paths(fills.points, fills.offsets, size > 2, none, none, none, fills.points3d)
+    paths, plenty = on_paper(Curves.of(one_mark((sides,))), sides, setting, tolerance_mm)
+    # Those of one corner are gone.
+    source = np.flatnonzero(size > 1)
+    count = np.diff(paths.offsets)
+    # A line goes on as several lines.
+    parts, each = np.where(paths.closed, 1, count - 1), np.where(paths.closed, count, 2)
+    of = ragged.owner(parts)
+    corner = ragged.ranges(paths.offsets[of] + ragged.place(parts), each[of])
+    mean = np.add.reduceat(fills.colours.astype(np.float64), fills.offsets[source]) / size[source, None]
+    own = source[of]
+    points = paths.points[corner]
+    return Fills.flat(
+        points,
+        ragged.offsets(each[of]),
+        np.rint(mean).astype(np.uint8)[of],
+        opacity=fills.opacity[own],
+        item=fills.item[own],
+        kind=fills.kind[own],
+    ), plenty
 
 
 def _tip(setting: Setting) -> Floats:
@@ -485,8 +528,8 @@ def anamorphosis(
     Parameters
     ----------
     picture : Drawing, Scene, path, Item, Mesh, surface, curve, or several of these
-        What is to be seen: the strokes of a drawing, such as `draw` or `read` returns; all else is drawn first, see
-        `draw`.
+        What is to be seen: the strokes and filled polygons of a drawing, such as `draw`, `paint` or `read` returns; all
+        else is drawn first, see `draw`.
     camera : Camera, optional
         How a scene is drawn.
     mirror : {"cylinder", "cone", "none"}
@@ -527,13 +570,14 @@ def anamorphosis(
     ------
     InputError
         See `draw`.
-        For an eye that cannot look into the mirror, a cone not higher than its radius, and a picture without strokes;
-        for a picture larger than the mirror shows, with how large it may be; for a drawing that does not fit the page.
+        For an eye that cannot look into the mirror, a cone not higher than its radius, and a picture without strokes
+        and polygons; for a picture larger than the mirror shows, with how large it may be; for a drawing that does not
+        fit the page.
 
     Warns
     -----
     InputWarning
-        For filled polygons and texts, which are left out.
+        For texts, and in cones filled polygons, which are left out.
 
     Notes
     -----
@@ -601,8 +645,8 @@ def anamorphosis_view(
     Returns
     -------
     Drawing
-        The layers of the picture; those of the paper, as far as the mirror does not hide it, with the word paper before
-        their names; and mirror, its outline.
+        The layers of the paper, as far as the mirror does not hide it, with the word paper before their names; those of
+        the picture; and mirror, its outline.
 
     Raises
     ------
@@ -620,7 +664,7 @@ def anamorphosis_view(
     >>> from vectorplot import geometry
     >>> seen = vp.anamorphosis_view(geometry.box((2, 2, 2)), radius_mm=20)
     >>> [layer.name for layer in seen.layers if len(layer.strokes[0])]
-    ['visible', 'contour', 'paper visible', 'paper contour', 'mirror']
+    ['paper visible', 'paper contour', 'visible', 'contour', 'mirror']
     """
     check_options(locals())
     how = {"curves": curves, "budget": budget, "jobs": jobs, "explain": explain}
@@ -708,21 +752,37 @@ def _shown(
         needed = min(setting.enlargement(points[:: 1 + len(points) // SAMPLES]), MOST_ENLARGED)
         if needed <= enlarged:
             break
-        enlarged = needed
-    left_out = sum(len(mark) for layer in drawing.layers for mark in layer.marks if not isinstance(mark, STROKES))
+        # A finer drawing may reach a little farther.
+        enlarged = min(LARGER * needed, MOST_ENLARGED)
+    left_out = sum(
+        len(mark)
+        for layer in drawing.layers
+        if layer.plotted
+        for mark in layer.marks
+        if mark not in _bent(layer, setting)
+    )
     if left_out:
-        text = f"anamorphosis: {left_out} filled polygons and texts are left out: only strokes can be bent"
-        warnings.warn(text, InputWarning, stacklevel=2)
+        what = "filled polygons and texts" if mirror.kind == "cone" else "texts"
+        warnings.warn(f"anamorphosis: {left_out} {what} are left out: they cannot be bent", InputWarning, stacklevel=2)
     return drawing, setting
 
 
 def _outline(drawing: Drawing) -> Floats:
-    """(k,2) points of all strokes of a drawing. Errors: InputError where there are none."""
-    points = [paths.points for layer in drawing.layers for paths in layer.strokes]
-    every = np.concatenate([np.zeros((0, 2)), *points])
+    """(k,2) points of all strokes and filled polygons of a drawing. Errors: InputError where there are none."""
+    marks = [mark for layer in drawing.layers for mark in _bent(layer, None)]
+    every = np.concatenate([np.zeros((0, 2)), *map(_points, marks)])
     if not len(every):
         raise InputError("anamorphosis: the picture has no strokes: there is nothing to be seen in the mirror")
     return every
+
+
+def _points(mark: Paths | CurvedStrokes | Fills) -> Floats:
+    return mark.paths.points if isinstance(mark, CurvedStrokes) else mark.points
+
+
+def _points_of(layers: Sequence[Layer]) -> Floats:
+    """(n,2) points of all strokes and filled polygons."""
+    return np.concatenate([np.zeros((0, 2)), *(_points(mark) for layer in layers for mark in _bent(layer, None))])
 
 
 def on_page(drawing: Drawing, setting: Setting, page: Page | str | None, tolerance_mm: float, curved: bool) -> Drawing:
@@ -731,7 +791,7 @@ def on_page(drawing: Drawing, setting: Setting, page: Page | str | None, toleran
     if not enough:
         text = f"anamorphosis: more than {MOST_POINTS:.0f} points: some strokes may be off by more than asked for"
         warnings.warn(text, InputWarning, stacklevel=2)
-    points = np.concatenate([paths.points for layer in layers for paths in layer.strokes])
+    points = _points_of(layers)
     if not np.isfinite(points).all():
         raise InputError("anamorphosis: parts of the picture are not seen in the mirror: make it smaller")
     highest = 0.0 if setting.mirror.kind == "none" else float(setting.heights(_outline(drawing)).max())
@@ -770,9 +830,7 @@ def as_seen(drawing: Drawing, setting: Setting, page: Page | str | None, toleran
     mirror = setting.mirror
     by = -setting.scale * setting.middle
     layers = [
-        replace(
-            layer, marks=tuple(moved_mark(mark, setting.scale, by) for mark in layer.marks if isinstance(mark, STROKES))
-        )
+        replace(layer, marks=tuple(moved_mark(mark, setting.scale, by) for mark in _bent(layer, setting)))
         for layer in drawing.layers
     ]
     if mirror.kind != "none":
@@ -780,15 +838,16 @@ def as_seen(drawing: Drawing, setting: Setting, page: Page | str | None, toleran
         rim = mirror.height if np.isfinite(mirror.height) else highest + ABOVE_FOOT * mirror.radius
         body, lines = _body_seen(setting, rim)
         laid, _ = _laid(drawing, setting, tolerance_mm, False)
+        paper = []
         for layer in laid:
-            (paths,) = layer.strokes
-            beside = _beside(_seen_flat(paths, setting), body)
-            if len(beside):
-                mark = curved_strokes(beside, tolerance_mm) if curved else beside
-                layers.append(replace(layer, name=f"paper {layer.name}", marks=(mark,)))
-        layers.append(Layer("mirror", MARK_PEN, (lines,)))
-    every = np.concatenate([paths.points for layer in layers for paths in layer.strokes])
-    return _paged(drawing, layers, every, page)
+            marks = [_beside(mark, setting, body, tolerance_mm if curved else None) for mark in layer.marks]
+            if any(map(len, marks)):
+                paper.append(replace(layer, name=f"paper {layer.name}", marks=tuple(marks)))
+        if any(layer.fills for layer in paper):
+            # The mirror covers what is filled behind it.
+            paper.append(Layer("body", MARK_PEN, (_blank(body),)))
+        layers = [*paper, *layers, Layer("mirror", MARK_PEN, (lines,))]
+    return _paged(drawing, layers, _points_of(layers), page)
 
 
 def _seen_from(setting: Setting, places: Floats) -> Floats:
@@ -800,12 +859,27 @@ def _seen_from(setting: Setting, places: Floats) -> Floats:
     return np.column_stack([dot(off, setting.right), dot(off, setting.up)])
 
 
-def _seen_flat(paths: Paths, setting: Setting) -> Paths:
-    """Strokes on the paper as they are seen, without those that reach behind the eye."""
-    points = _seen_from(setting, paths.points3d)
-    sound = np.logical_and.reduceat(np.isfinite(points).all(axis=1), paths.offsets[:-1])
-    unknown = np.full_like(paths.directions, np.nan)
-    return chosen(replace(paths, points=points, directions=unknown), sound)
+def _beside(mark: Any, setting: Setting, body: Any, curved_mm: float | None) -> Any:
+    """A mark on the paper as it is seen, without what reaches behind the eye; strokes outside a polygon of shapely that
+    hides them, as curves within curved_mm unless that is None."""
+    seen = replace(mark, points=_seen_from(setting, mark.points3d))
+    if not len(seen):
+        return seen
+    sound = np.logical_and.reduceat(np.isfinite(seen.points).all(axis=1), seen.offsets[:-1])
+    seen = take(seen, sound)
+    if isinstance(seen, Fills):
+        return seen
+    left = _outside(seen, body)
+    return left if curved_mm is None else curved_strokes(left, curved_mm)
+
+
+def _blank(body: Any) -> Fills:
+    """A polygon of shapely in white."""
+    import shapely
+
+    corners = shapely.get_coordinates(body)[:-1]
+    white = np.full((1, 3), 255, dtype=np.uint8)
+    return Fills.flat(corners, np.array([0, len(corners)]), white, kind=FillKind.BACKGROUND)
 
 
 def _body_seen(setting: Setting, rim: float) -> tuple[Any, Paths]:
@@ -827,7 +901,7 @@ def _body_seen(setting: Setting, rim: float) -> tuple[Any, Paths]:
     return body, replace(found, smooth=np.ones(len(found), dtype=np.bool_))
 
 
-def _beside(paths: Paths, body: Any) -> Paths:
+def _outside(paths: Paths, body: Any) -> Paths:
     """What is left of strokes outside a polygon of shapely."""
     import shapely
 
