@@ -254,6 +254,8 @@ def test_a_drawing_anywhere_on_its_page_is_seen_alike():
         ({"viewer": (0.0, -400.0, -1.0)}, "expected an eye above the paper"),
         ({"mirror": "cone", "viewer": (0.0, 0.0, 40.0)}, "an eye above the tip of the cone, higher than 50 mm"),
         ({"viewer": (0.0, -400.0)}, "expected three finite numbers"),
+        ({"viewer": "above"}, "expected three finite numbers"),
+        ({"radius_mm": "large"}, "radius_mm: expected a number"),
         ({"seen_mm": 60.0}, "does not fit in the cylinder, its longer side may have 49.99"),
         ({"seen_mm": 60.0, "mirror": "cone"}, "does not fit in the cone, its longer side may have 40"),
         ({"page": "80x80"}, "the page has 60 x 60 mm for it"),
@@ -280,6 +282,9 @@ def test_the_largest_picture_that_is_told_fits():
 def test_a_picture_without_strokes_is_none():
     with pytest.raises(vp.InputError, match="no strokes"):
         vp.anamorphosis(vp.Drawing(100, 80, ()))
+    point = vp.Paths.of_polylines([[(5.0, 5.0), (5.0, 5.0)]])
+    with pytest.raises(vp.InputError, match="all of the picture is one point"):
+        vp.anamorphosis(vp.Drawing(100, 80, (vp.Layer("point", vp.Pen(), (point,)),)))
 
 
 @pytest.mark.slow

@@ -165,7 +165,10 @@ def _eye(viewer: Sequence[float] | None, mirror: CurvedMirror) -> Floats:
         return np.array(VIEWER_MM if mirror.kind == "none" else VIEWER[mirror.kind]) * (
             1.0 if mirror.kind == "none" else mirror.radius
         )
-    eye = np.asarray(viewer, dtype=np.float64)
+    try:
+        eye = np.asarray(viewer, dtype=np.float64)
+    except (TypeError, ValueError):
+        eye = np.zeros(0)
     if eye.shape != (3,) or not np.isfinite(eye).all():
         raise InputError(f"viewer: expected three finite numbers of mm, got {viewer!r}")
     shown = ",".join(f"{value:g}" for value in eye.tolist())
@@ -188,7 +191,9 @@ def _fitted(mirror: CurvedMirror, eye: Floats, outline: Floats, seen_mm: float |
     """
     low, high = outline.min(axis=0), outline.max(axis=0)
     outline = _hull(outline)
-    middle, long = 0.5 * (low + high), max(float((high - low).max()), LEAST_DIVISOR)
+    middle, long = 0.5 * (low + high), float((high - low).max())
+    if not 0.0 < long < np.inf:
+        raise InputError("anamorphosis: all of the picture is one point, or it has no end")
 
     def at(scale: float) -> Setting:
         return _at_height(mirror, eye, outline, scale, middle)
@@ -750,7 +755,7 @@ def _shown(
         points = _outline(drawing)
         setting = _fitted(mirror, eye, points, seen_mm)
         needed = min(setting.enlargement(points[:: 1 + len(points) // SAMPLES]), MOST_ENLARGED)
-        if needed <= enlarged:
+        if not needed > enlarged:
             break
         # A finer drawing may reach a little farther.
         enlarged = min(LARGER * needed, MOST_ENLARGED)
