@@ -17,6 +17,7 @@ from support.paths import ROOT
 
 import vectorplot as vp
 from vectorplot.cli.commands.accuracy import accuracy
+from vectorplot.cli.commands.anamorphosis import anamorphosis
 from vectorplot.cli.commands.animate import animate
 from vectorplot.cli.commands.contact_sheet import contact_sheet
 from vectorplot.cli.commands.develop import develop
@@ -53,7 +54,7 @@ COMMANDS = [
     if line.startswith("vectorplot ") and "INPUT" not in line and "NAME" not in line
 ]
 
-VERBS = [accuracy, animate, contact_sheet, develop, draw, info, paint, render, replay, sheet, speed, try_]
+VERBS = [accuracy, anamorphosis, animate, contact_sheet, develop, draw, info, paint, render, replay, sheet, speed, try_]
 
 FOREIGN = {"--help", "--no-deps", "--hypothesis-profile", "--nthreads"}
 """Options of other programs that pages name, and of all commands."""

@@ -10,6 +10,7 @@ from .features.zero_curves import zero_manifold_of_f_uv
 from .geometry.camera import Camera, Panorama
 from .geometry.mesh import Mesh
 from .geometry.polylines import Strokes
+from .pictures.anamorphosis import anamorphosis, anamorphosis_view
 from .pictures.development import development
 from .pictures.draw import draw
 from .pictures.film import Film, animate
@@ -93,6 +94,8 @@ __all__ = [
     "Style",
     "SurfaceLines",
     "accuracy",
+    "anamorphosis",
+    "anamorphosis_view",
     "angle",
     "animate",
     "arrow",

@@ -18,6 +18,7 @@ COMMANDS = {
     "render": "render",
     "sheet": "sheet",
     "develop": "develop",
+    "anamorphosis": "anamorphosis",
     "contact-sheet": "contact_sheet",
     "animate": "animate",
     "replay": "replay",

@@ -62,10 +62,10 @@ from vectorplot.visibility.smooth.curve_families import (
     ParameterCurves,
     SpatialCurves,
 )
-from vectorplot.visibility.smooth.rays import Targets, meetings_along, targets_of
+from vectorplot.visibility.smooth.rays import Balls, Targets, meetings_along, targets_of
 from vectorplot.visibility.smooth.scene_curves import Rims, tracing_of
 from vectorplot.visibility.smooth.sheets import ImplicitSheet, ParametricSheet, Sheets
-from vectorplot.visibility.smooth.traced_curves import Curves, no_curves, together
+from vectorplot.visibility.smooth.traced_curves import Curves, no_curves, together, with_merged_families
 from vectorplot.words import LineKind
 
 OUTLINES = (LineKind.CONTOUR, LineKind.BOUNDARY)
@@ -142,7 +142,8 @@ def light_lines(
             for plain, smooth in found:
                 straight.append(replace(plain, lamp=np.full(len(plain), place)))
                 curves.append(replace(smooth, lamp=np.full(len(smooth), place)))
-    return LightLines(joined_lines(straight), together(curves))
+    # Shadows of all lamps on sheets that are asked as one are asked as one.
+    return LightLines(joined_lines(straight), *with_merged_families([together(curves)], sheets))
 
 
 FAR_LAMP = 1e7
@@ -234,6 +235,11 @@ class _Rays:
     def targets(self) -> Targets:
         """The smooth surfaces that light may meet."""
         return targets_of(self.view, self.picture.sheets)
+
+    @cached_property
+    def balls(self) -> Balls:
+        """Those of them that are met in closed form."""
+        return Balls.of(self.picture.sheets)
 
     @cached_property
     def open_items(self) -> Ints:
@@ -546,7 +552,7 @@ def _before_sheets(rays: _Rays, lines: Lines, thrown: _Thrown) -> _Thrown:
     def lit(which: Ints, part: Floats) -> Bools:
         points = _at(lines, thrown.line[which], thrown.low[which] + part * span[which])
         points = _cast(rays, points + BESIDE_SMOOTH_OUTLINE * out[which], planes[:, which])
-        met = meetings_along(rays.view, rays.picture.sheets, rays.targets, points)
+        met = meetings_along(rays.view, rays.picture.sheets, rays.targets, points, rays.balls)
         long = norm(sight_lines.sight(rays.view, points))
         free = np.ones(len(which), dtype=np.bool_)
         free[met.sample[met.t * long[met.sample] > BEHIND_SMOOTH_OUTLINE]] = False
@@ -599,7 +605,7 @@ def _met(eye: _Eye, rays: _Rays, lines: Lines, out: Floats, items: Bools, line: 
     # A little beside the outline the ray does not touch what throws the shadow, and meets the same behind it.
     beside = grazed + BESIDE_SMOOTH_OUTLINE * out[line]
     towards = rays.towards(beside)
-    found = meetings_along(view, sheets, rays.targets, beside - FAR_BEHIND * towards)
+    found = meetings_along(view, sheets, rays.targets, beside - FAR_BEHIND * towards, rays.balls)
     behind = dot(beside[found.sample] - sheets.points(found.number, found.places), towards[found.sample])
     kept = np.flatnonzero(behind > BEHIND_SMOOTH_OUTLINE)
     order = kept[np.lexsort((behind[kept], found.sample[kept]))]
@@ -844,4 +850,4 @@ def _in_eye(eye: _Eye, rays: _Rays, curves: Curves, kind: LineKind, family_of: F
         families=tuple(family_of(eye, rays, *each) for each in pair.T.tolist()),
         side=np.zeros(len(curves), dtype=np.intp),
     )
-    return found
+    return with_merged_families([found], eye.sheets)[0]

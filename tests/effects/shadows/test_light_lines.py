@@ -6,9 +6,11 @@ import numpy as np
 import pytest
 from scipy.spatial import cKDTree
 from support.drawn import Drawn, drawn
+from support.grazing_rays import grazing_gaps, shadow_points
 from support.light_by_rays import shone_on, towards, uncovered
 
 import vectorplot as vp
+from vectorplot.animation.animation_file import parse_animation
 from vectorplot.curves import Circle
 from vectorplot.geometry import box
 from vectorplot.scene.light import Light
@@ -163,6 +165,18 @@ def test_wherever_light_ends_a_line_lies(name):
         assert len(left) == 0, scene.items[number].name
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("name", SCENES)
+def test_light_grazes_something_on_its_way_to_the_edge_of_a_shadow(name):
+    scene = SCENES[name]
+    drawing = vp.draw(scene, CAMERA, lines="shadow", hidden="solid", curves="polyline", tolerance_mm=0.1)
+    points, ends = shadow_points(drawing)
+    gaps = grazing_gaps(scene, scene.lights[0], points)
+    assert len(points) > 50
+    # What the eye sees ends somewhere on a chord, a tenth of a mm beside the curve at most.
+    assert gaps[~ends].max() < 1e-9 and gaps.max() < 0.1 / np.linalg.norm(drawing.page_from_world[0, :3])
+
+
 @pytest.mark.parametrize("name", SCENES)
 def test_what_is_seen_is_seen_by_rays(name):
     scene = SCENES[name]
@@ -285,6 +299,43 @@ def test_items_ask_for_them_and_other_verbs_draw_them():
     assert {"terminator", "shadow"} <= {layer.name for layer in painted.layers if len(layer.strokes)}
     plain, lined = (vp.render(scene, CAMERA, size=(60, 60), lines=lines) for lines in ("none", BOTH))
     assert (plain.pixels != lined.pixels).any()
+
+
+def _block_and_ball(**how) -> vp.Scene:
+    ball = vp.Item("ball", Sphere(1.0), lines=("contour", "terminator", "shadow")).moved(0.0, 0.0, 1.0)
+    block_ = block("block", (-2.0, -2.0, -0.4), (4.0, 4.0, 0.4), lines=("contour", "crease", "shadow"))
+    return vp.Scene((ball, block_), (SUN,), **how)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("mode", ["lines", "shading"])
+def test_in_films_they_move_with_the_lamp(mode):
+    text = "frames 3 light SUN direction linear at 0 -2 -1 2.5 at 1 2 -1 2.5"
+    film = vp.animate(parse_animation(text, _block_and_ball(camera=CAMERA)), mode=mode, page="100x80", lines=BOTH)
+    for number, x in enumerate((-2.0, 0.0, 2.0)):
+        way = np.array([x, -1.0, 2.5]) / np.linalg.norm([x, -1.0, 2.5])
+        found = drawn(film.picture(number))
+        turning, shadow = (on_lines(found.of_kind(word)) for word in ("terminator", "shadow"))
+        assert len(turning) > 10 and np.abs((turning - (0.0, 0.0, 1.0)) @ way).max() < 1e-9
+        floor_ = shadow[np.abs(shadow[:, 2]) < 1e-9]
+        off = np.abs(np.linalg.norm(np.cross(floor_ - (0.0, 0.0, 1.0), way), axis=1) - 1.0)
+        assert len(floor_) > 10 and np.median(off) < 1e-9 and off.max() < 1e-2
+
+
+@pytest.mark.slow
+def test_sheets_have_those_of_items_that_ask_for_them():
+    scene = _block_and_ball()
+    sheet = vp.technical_sheet(scene, views="front,top,iso", scale="10:1")
+    bare = replace(scene, items=tuple(replace(item, lines=None) for item in scene.items))
+    plain = vp.technical_sheet(bare, views="front,top,iso", scale="10:1")
+    found = {layer.name for layer in sheet.layers if any(map(len, layer.strokes))}
+    assert {"terminator", "shadow"} <= found
+    assert not {"terminator", "shadow"} & {layer.name for layer in plain.layers if any(map(len, layer.strokes))}
+    views = [marks for layer in sheet.layers if layer.name == "terminator" for marks in layer.strokes]
+    # The great circle is seen in each of the three views.
+    assert len(views) == 3
+    side_by_side = vp.contact_sheet([vp.draw(scene, CAMERA), vp.draw(scene, "top")])
+    assert {"terminator", "shadow"} <= {layer.name for layer in side_by_side.layers if any(map(len, layer.strokes))}
 
 
 def test_dashed_shadows_are_hidden_lines_behind_what_hides_them():

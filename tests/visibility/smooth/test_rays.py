@@ -11,9 +11,11 @@ from vectorplot.geometry.camera import Camera
 from vectorplot.scene.item import Item
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import look
+from vectorplot.surfaces.quadrics import Ellipsoid, Sphere
 from vectorplot.surfaces.tori import Torus
+from vectorplot.visibility.smooth import sight_lines
 from vectorplot.visibility.smooth.parametric_items import sheets_of_parametrised
-from vectorplot.visibility.smooth.rays import Samples, counts_in_front, targets_of
+from vectorplot.visibility.smooth.rays import Balls, Samples, counts_in_front, meetings_along, targets_of
 from vectorplot.visibility.smooth.sheets import Sheets
 
 
@@ -85,3 +87,28 @@ def _meetings_in_closed_form(points: np.ndarray, way: np.ndarray, ring: float, t
     quartics = np.stack([zero + 1.0, zero, 2.0 * c, zero, c * c], axis=1)
     quartics[:, 2:] -= 4.0 * ring**2 * np.stack([zero + flat[0], flat[1], flat[2]], axis=1)
     return np.array([(np.abs(np.roots(q).imag) < 1e-7).sum() for q in quartics])
+
+
+@pytest.mark.parametrize("parallel", [True, False])
+def test_balls_are_met_in_closed_form_where_newton_meets_them(parallel: bool) -> None:
+    shapes = [
+        Item("EGG", Ellipsoid((1.0, 2.0, 0.5))).turned("x", 40).moved(0.5, 0.2, 0.1),
+        Item("BALL", Sphere(0.7)).moved(-2.0, 1.0, 0.3),
+        Item("RING", Torus(3.0, 0.4)),
+    ]
+    view = look(Scene(tuple(shapes)), Camera((4.0, -9.0, 7.0), (0.0, 0.0, 0.0), parallel=parallel))
+    sheets = Sheets(
+        tuple(sheet for k, item in enumerate(shapes) for sheet in sheets_of_parametrised(view, item.shape, k, True))
+    )
+    balls, targets = Balls.of(sheets), targets_of(view, sheets)
+    assert balls.known.tolist() == [True, True, False]
+    points = np.random.default_rng(3).uniform(-0.6, 0.6, (400, 3)) - [0.0, 0.0, 1.5]
+    none = Balls(np.zeros(3, dtype=np.bool_), balls.centre, balls.inverse)
+    one, two = (meetings_along(view, sheets, targets, points, known) for known in (balls, none))
+    assert len(one.sample) == len(two.sample) > 200 and set(one.number.tolist()) == {0, 1, 2}
+    order, other = (np.lexsort((met.t, met.number, met.sample)) for met in (one, two))
+    assert one.sample[order].tolist() == two.sample[other].tolist()
+    assert np.abs(one.t[order] - two.t[other]).max() < 1e-9
+    ways = sight_lines.sight(view, points)[one.sample]
+    met = points[one.sample] + one.t[:, None] * ways
+    assert np.abs(sheets.points(one.number, one.places) - met).max() < 1e-9

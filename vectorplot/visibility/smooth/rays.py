@@ -10,10 +10,13 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged, records
+from vectorplot.geometry.algebra import inverse_matrix
 from vectorplot.geometry.budget import in_turn
+from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.records import Elements
-from vectorplot.geometry.vectors import all_finite, dot, greatest_component, least_component
+from vectorplot.geometry.vectors import all_finite, dot, from_components, greatest_component, least_component
 from vectorplot.scene.view import View
+from vectorplot.surfaces.capped_bodies import ball_of
 from vectorplot.tolerances import (
     CONTACT_MEETING,
     CONTACT_PLACES,
@@ -28,7 +31,7 @@ from vectorplot.tolerances import (
 )
 from vectorplot.visibility.smooth import sight_lines
 from vectorplot.visibility.smooth.box_strips import Block, BoxStrips, in_blocks
-from vectorplot.visibility.smooth.sheets import Sheets
+from vectorplot.visibility.smooth.sheets import ParametricSheet, Sheets
 
 # Sheets as targets of sight lines and of curves: a tree over the images of their triangles.
 
@@ -376,8 +379,9 @@ AT_ONCE = 1 << 12
 """Sight lines that are met with everything at once."""
 
 
-def meetings_along(view: View, sheets: Sheets, targets: Targets, points: Floats) -> Met:
-    """All meetings of the sight lines of points (k,3) with sheets in front of these, each once."""
+def meetings_along(view: View, sheets: Sheets, targets: Targets, points: Floats, balls: Balls) -> Met:
+    """All meetings of the sight lines of points (k,3) with sheets in front of these, each once; balls: those of the
+    sheets."""
     none, nowhere = np.zeros(0, dtype=np.intp), np.zeros((0, 3))
     parts = [Met(none, none, np.zeros(0), nowhere)]
     image = sight_lines.image(view, points)
@@ -389,9 +393,57 @@ def meetings_along(view: View, sheets: Sheets, targets: Targets, points: Floats)
         samples = Samples(own, nothing, unknown, nothing[:, None], unknown[:, None], no, no)
         there = image[first : first + AT_ONCE]
         way = sight_lines.sight(view, own)
-        found = _meetings(view, sheets, targets, samples, way, targets.near_boxes(there, there))
-        parts.append(replace(found, sample=found.sample + first))
+        sample, triangle = targets.near_boxes(there, there)
+        number = targets.sheet[triangle]
+        is_round = balls.known[number]
+        pair = np.unique((sample * len(sheets) + number)[is_round])
+        found = [balls.met(view, own, way, *np.divmod(pair, len(sheets)))]
+        if not is_round.all():
+            others = sample[~is_round], triangle[~is_round]
+            found.append(_meetings(view, sheets, targets, samples, way, others))
+        parts += [replace(each, sample=each.sample + first) for each in found]
     return records.joined(parts)
+
+
+@dataclass(frozen=True, eq=False)
+class Balls:
+    """Which of some sheets (s,) are whole spheres or ellipsoids, known (s,), and what makes points of space points of
+    the unit sphere: minus centre (s,3), times inverse (s,3,3). Lines meet them in closed form."""
+
+    known: Bools
+    centre: Floats
+    inverse: Floats
+
+    @classmethod
+    def of(cls, sheets: Sheets) -> Balls:
+        """Those of some sheets."""
+        found = [ball_of(sheet.surface) if isinstance(sheet, ParametricSheet) else None for sheet in sheets]
+        centre, frame = np.zeros((len(found), 3)), np.tile(np.eye(3), (len(found), 1, 1))
+        for number, ball in enumerate(found):
+            if ball is not None:
+                centre[number], frame[number] = ball.centre, ball.frame
+        return cls(np.array([ball is not None for ball in found], dtype=np.bool_), centre, inverse_matrix(frame))
+
+    def met(self, view: View, points: Floats, ways: Floats, sample: Ints, number: Ints) -> Met:
+        """Where the sight lines, along ways (k,3), of points (k,3) meet balls, for pairs of a sample and a sheet; not
+        behind the eye."""
+        inverse = self.inverse[number]
+        here, way = (
+            np.einsum("ki,kij->kj", rows, inverse) for rows in (points[sample] - self.centre[number], ways[sample])
+        )
+        square = dot(way, way)
+        nearest = -dot(here, way) / square
+        foot = here + nearest[:, None] * way
+        depth = 1.0 - dot(foot, foot)
+        crossing = np.flatnonzero(depth > 0.0)
+        half = np.sqrt(depth[crossing] / square[crossing])
+        t = (nearest[crossing] + np.array([[-1.0], [1.0]]) * half).T.ravel()
+        both = np.repeat(crossing, 2)
+        x, y, z = (here[both] + t[:, None] * way[both]).T
+        u = np.mod(arctan2(y, x), 2.0 * np.pi)
+        places = from_components(u, arctan2(z, np.hypot(x, y)), np.zeros_like(u))
+        before = np.ones(len(t), dtype=np.bool_) if view.eye is None else t < 1.0
+        return Met(sample[both][before], number[both][before], t[before], places[before])
 
 
 def _in_front(
