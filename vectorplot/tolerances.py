@@ -32,6 +32,14 @@ NO_CAD_NORMAL = 1e-6
 """Where both parameter lines of a face of a part span an area no larger than this part of what the longest ones of the
 face could, its surface has no normal there: at the tip of a cone, the pole of a ball."""
 
+CAD_EDGE_OFF_FACE = 1e-5
+"""An edge of a part lies on its faces if it is no farther off than this part of the body: what files call precise, and
+less than is seen; a body with an edge farther off is drawn from its triangles."""
+
+RING_OPEN = 1e-5
+"""Edges of a part that end this part of their face, in u and v, or of the edge, from where the next one begins end there:
+files hold them so, and a slit between them would let lines through."""
+
 SEWN_OF_EXTENT = 1e-5
 """Faces of a file without solids are joined along edges that are no farther apart than this part of all of it: a
 hundredth of a millimetre of a metre, as systems for surfaces have it."""

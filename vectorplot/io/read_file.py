@@ -99,6 +99,7 @@ def read(
     exaggeration: float | None = None,
     tolerance: float | None = None,
     molecules: str | None = None,
+    parts: str | None = None,
 ) -> Scene:
     """The scene in a file: a mesh (one of MESH_SUFFIXES), parts of a CAD system (see cad_files.cad_scene), a molecule
     (xyz, pdb, cif), a terrain (asc, xyz), or the scene language (any other suffix). exaggeration: factor of a terrain's
@@ -128,7 +129,8 @@ def read(
         from vectorplot.io.cad_files import cad_scene
         from vectorplot.tolerances import USUAL_PART_TOLERANCE
 
-        return cad_scene(path, USUAL_PART_TOLERANCE if tolerance is None else tolerance)
+        fine = USUAL_PART_TOLERANCE if tolerance is None else tolerance
+        return cad_scene(path, fine) if parts is None else cad_scene(path, fine, parts)
     _check_text(path)
     return _scene_text(path)
 

@@ -12,7 +12,7 @@ from vectorplot.errors import InputError
 from vectorplot.geometry.vectors import largest_component
 from vectorplot.surfaces.capped_bodies import ball_of, bounds_of_balls, bounds_of_capped_quadrics, capped_quadric_of
 from vectorplot.surfaces.stacked import StackedSurfaces
-from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_implicit, is_parametrised
+from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_brep, is_implicit, is_parametrised
 from vectorplot.tolerances import LARGEST
 
 GRID = 64
@@ -75,6 +75,9 @@ def smooth_bounds(shape: Surface | ImplicitSurface | Curve) -> Floats:
         return box
     if is_curve(shape):
         return _curve_bounds(shape)
+    if is_brep(shape):
+        check_range(shape.bounds)
+        return shape.bounds
     raise InputError(f"a {type(shape).__name__} is no mesh, no surface and no curve")
 
 

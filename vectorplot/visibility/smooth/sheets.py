@@ -419,10 +419,11 @@ VAIN, MOST_VAIN = 0.8, 2
 vain; after so many times nothing finer is tried. At a vertical tangent they leave less."""
 
 
-def fineness(surfaces: StackedSurfaces) -> tuple[Ints, Ints, Floats]:
-    """(s,) columns and rows of tessellations that are close enough to their surfaces, and how close (s,) they are."""
+def fineness(surfaces: StackedSurfaces, fewest: int = FEWEST) -> tuple[Ints, Ints, Floats]:
+    """(s,) columns and rows of tessellations that are close enough to their surfaces, so many at least, and how close
+    (s,) they are."""
     count = len(surfaces)
-    columns, rows = np.full(count, FEWEST), np.full(count, FEWEST)
+    columns, rows = np.full(count, fewest), np.full(count, fewest)
     deviation, best, vain = np.zeros(count), np.full(count, np.inf), np.zeros(count, dtype=np.intp)
     across, along = np.zeros(count), np.zeros(count)
     active = np.arange(count)
@@ -521,19 +522,24 @@ class ParametricSheet(OnParametrised):
 
 
 def parametric_sheets(
-    surfaces: Sequence[Surface], items: Sequence[int], hides: Sequence[bool]
+    surfaces: Sequence[Surface],
+    items: Sequence[int],
+    hides: Sequence[bool],
+    trims: Sequence[ParameterRegions | None] | None = None,
+    fewest: int = FEWEST,
 ) -> list[ParametricSheet]:
     """The sheets of surfaces that are given in the view's coordinates, made together as far as these are alike.
 
+    trims: what is left of whole surfaces; of each what it says itself where None. fewest: cells of tessellations.
     Edge cases: triangles beneath which a surface jumps are left out; those with a corner in a hole end at its rim;
     those that trims cross are whole.
     """
     sheets: dict[int, ParametricSheet] = {}
-    trims = [trims_of(surface) for surface in surfaces]
+    trims = [trims_of(surface) for surface in surfaces] if trims is None else trims
     asked = [s if trim is None else uncut(s) for s, trim in zip(surfaces, trims, strict=True)]
-    for part in stacks(asked, (FEWEST + 1) ** 2):
+    for part in stacks(asked, (fewest + 1) ** 2):
         stack = StackedSurfaces.of([asked[k] for k in part.tolist()])
-        columns, rows, deviation = fineness(stack)
+        columns, rows, deviation = fineness(stack, fewest)
         for own in alike(columns, rows):
             grids = _Grids.of(stack.take(own), int(columns[own[0]]), int(rows[own[0]]), deviation[own])
             for row, number in enumerate(part[own].tolist()):
