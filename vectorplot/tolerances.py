@@ -37,8 +37,12 @@ CAD_EDGE_OFF_FACE = 1e-5
 less than is seen; a body with an edge farther off is drawn from its triangles."""
 
 RING_OPEN = 1e-5
-"""Edges of a part that end this part of their face, in u and v, or of the edge, from where the next one begins end there:
-files hold them so, and a slit between them would let lines through."""
+"""Edges of a part end where the next ones begin if they end no farther from there than this part of their face, in u
+and v: files hold them so, and a slit between them would let lines through. Edges that come back so near are closed."""
+
+PIECES_OFF_EDGE = 1e-8
+"""Cubic pieces of an edge of a part are off it by no more than this part of its size: a tenth of what counts as touching
+where a sight line leaves a face."""
 
 SEWN_OF_EXTENT = 1e-5
 """Faces of a file without solids are joined along edges that are no farther apart than this part of all of it: a

@@ -25,7 +25,7 @@ from vectorplot.surfaces.splines import SplineSurface
 from vectorplot.surfaces.stacked import unit_normals
 from vectorplot.surfaces.surface import Domain, OverDomain
 from vectorplot.surfaces.swept import Screw, Swept
-from vectorplot.tolerances import CAD_EDGE_OFF_FACE, RING_OPEN
+from vectorplot.tolerances import CAD_EDGE_OFF_FACE, PIECES_OFF_EDGE, RING_OPEN
 
 ROUND_ROWS = 128
 """Rows of a whole circle as cubic pieces: these are off it by 1.5e-8 of its radius."""
@@ -129,12 +129,9 @@ def body_faces(shape: Any) -> BodyFaces:
         if not use.degenerate:
             count = max(count, _count(curves[use.edge]))
         rows[use.edge] = max(rows.get(use.edge, 2), count)
+    points = {edge: _closed(*_fine_rows(curve, edge, rows)) for edge, curve in curves.items()}
     for use in uses:
         use.read(rows[use.edge])
-    points = {
-        edge: _closed(*_rows(curve, curve.FirstParameter(), curve.LastParameter(), rows[edge], 3))
-        for edge, curve in curves.items()
-    }
     made = list[BrepFace]()
     for face in faces:
         may_stop()
@@ -191,7 +188,7 @@ def _count(curve: Any) -> int:
     if kind == "Line":
         return 2
     span = curve.LastParameter() - curve.FirstParameter()
-    if kind in ("Circle", "Ellipse"):
+    if kind in ROUND[1:]:
         return max(9, int(np.ceil(ROUND_ROWS * span / (2.0 * np.pi))) + 1)
     pieces = curve.NbKnots() - 1 if kind == "BSplineCurve" else 1
     return int(min(max(FEWEST_ROWS, 1 + SPLINE_ROWS * pieces), MOST_ROWS))
@@ -206,7 +203,7 @@ def _rows(curve: Any, start: float, end: float, rows: int, dimensions: int) -> t
         line = curve.Line()
         way = np.array(line.Direction().Coord())
         return np.array(line.Location().Coord()) + t[:, None] * way, np.tile(way * step, (rows, 1))
-    if kind in ("Circle", "Ellipse"):
+    if kind in ROUND[1:]:
         conic = getattr(curve, kind)()
         x, y = (np.array(axis.Direction().Coord()) for axis in (conic.XAxis(), conic.YAxis()))
         a, b = (conic.Radius(),) * 2 if kind == "Circle" else (conic.MajorRadius(), conic.MinorRadius())
@@ -221,6 +218,25 @@ def _rows(curve: Any, start: float, end: float, rows: int, dimensions: int) -> t
         points[row], slopes[row] = point.Coord(), slope.Coord()
     return points, step * slopes
 
+
+def _fine_rows(curve: Any, edge: int, rows: dict[int, int]) -> tuple[Floats, Floats]:
+    """The rows of an edge in space, so many that cubic pieces between them are near it: their number is put in rows."""
+    start, end = curve.FirstParameter(), curve.LastParameter()
+    found = _rows(curve, start, end, rows[edge], 3)
+    while _type(curve) not in ROUND and 2 * rows[edge] < MOST_ROWS:
+        twice = 2 * rows[edge] - 1
+        points, slopes = found
+        finer = _rows(curve, start, end, twice, 3)
+        between = 0.5 * (points[:-1] + points[1:]) + 0.125 * (slopes[:-1] - slopes[1:])
+        off = float(norm(between - finer[0][1::2]).max())
+        if off <= PIECES_OFF_EDGE * float(np.ptp(points, axis=0).max()):
+            break
+        rows[edge], found = twice, finer
+    return found
+
+
+ROUND = ("Line", "Circle", "Ellipse")
+"""Curves of which it is known how many rows they take."""
 
 ENDLESS = 1e50
 """Larger parameters stand for infinite ones."""

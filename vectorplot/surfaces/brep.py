@@ -1,4 +1,4 @@
-"""Boundary representations: bodies whose faces are surfaces trimmed by curves in u and v, with the edges between them."""
+"""Boundary representations: bodies whose faces are surfaces trimmed by curves in u and v, and the edges of these."""
 
 from __future__ import annotations
 

@@ -14,7 +14,7 @@ from vectorplot.features.zero_curves import EVERYWHERE
 from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.chord_refinement import Traces, bisected, refined, straight_between
-from vectorplot.geometry.vectors import dot, from_components, norm
+from vectorplot.geometry.vectors import dot, norm
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
 from vectorplot.surfaces.brep import Brep, BrepEdges
