@@ -13,7 +13,7 @@ from vectorplot.geometry import ragged
 from vectorplot.geometry.budget import USUAL, Budget, unheard, unresolved
 from vectorplot.geometry.vectors import dot, norm
 from vectorplot.scene.view import View
-from vectorplot.tolerances import GRAZING_ANGLE, LEAST_DIVISOR, LEAST_PART, SAFE_IN_IMAGE
+from vectorplot.tolerances import GRAZING_ANGLE, LEAST_DIVISOR, LEAST_PART, SAFE_IN_IMAGE, TOUCHING_OF_EXTENT
 from vectorplot.visibility.polyhedra.lines import Lines
 from vectorplot.visibility.smooth import sight_lines
 from vectorplot.visibility.smooth.crossings import crossings
@@ -55,7 +55,26 @@ def clearances(view: View, edges: Curves, points: Floats, tolerance: float) -> F
         which, other = on[which[apart]], other[apart]
         from_border[on] = reach
         np.minimum.at(from_border, which, _from_chords(view, edges, other, image[which]))
-    return np.minimum(distance, from_border)
+    clear = np.minimum(distance, from_border)
+    near = np.flatnonzero(clear <= SAFE_IN_IMAGE)
+    if len(near):
+        clear[near] = _clear_before(view, edges, points[near], image[near], tolerance)
+    return clear
+
+
+def _clear_before(view: View, edges: Curves, points: Floats, image: Floats, tolerance: float) -> Floats:
+    """(k,) the same of points that are near edges, of which those behind them do not count; no more than a little
+    farther than what is safe."""
+    clear = np.full(len(points), BEYOND * SAFE_IN_IMAGE)
+    which, chord = _chords_within(view, edges, edges.chords, image, BEYOND * SAFE_IN_IMAGE)
+    depth = sight_lines.depth(view, edges.points)
+    before = np.minimum(depth[chord], depth[chord + 1]) <= sight_lines.depth(view, points)[which] + TOUCHING_OF_EXTENT
+    which, chord = which[before], chord[before]
+    border = edges.kind[edges.owner[chord]] == LineKind.BOUNDARY
+    counts = ~(border & _lies_on(view, edges, chord, points[which], tolerance))
+    which, chord = which[counts], chord[counts]
+    np.minimum.at(clear, which, _from_chords(view, edges, chord, image[which]))
+    return clear
 
 
 def _distances(view: View, edges: Curves, chord: Ints, image: Floats) -> Floats:
