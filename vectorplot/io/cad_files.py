@@ -265,8 +265,6 @@ def cad_scene(path: Path, tolerance: float = USUAL_PART_TOLERANCE, parts: str = 
     for a tolerance that is not positive. Warns InputWarning: which bodies are drawn from triangles although others are
     not, and why.
     """
-    if parts not in PARTS:
-        raise unknown("way of drawing parts", parts, PARTS)
     if not 0.0 < tolerance < np.inf:
         raise InputError(f"a tolerance of {tolerance:g}: expected a positive part of the extent")
     name = shown(path)
@@ -453,6 +451,8 @@ def cad_object_scene(shown: Any, parts: str = PARTS[0]) -> Scene | None:
     is wrapped, the values of a workplane, the shapes of an assembly, the part of a builder. None for anything else; the
     object stays as it was.
 
+    parts: one of PARTS.
+
     Errors: InputError for one without faces, and for one that OpenCASCADE cannot divide into triangles.
     """
     name = type(shown).__name__
@@ -515,6 +515,8 @@ def _copied(shape: Any) -> Any:
 
 def _scene(parts: Sequence[_Part], tolerance: float, drawn: str) -> Scene:
     """The items of parts, those that are used several times triangulated once; drawn: one of PARTS."""
+    if drawn not in PARTS:
+        raise unknown("way of drawing parts", drawn, PARTS)
     unmapped = dict[str, str]()
     shapes, boxes, made = Numbers(), dict[int, Floats](), dict[tuple[int, bytes], list[Item]]()
     numbers = [shapes.of(part.shape) for part in parts]
