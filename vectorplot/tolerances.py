@@ -41,8 +41,8 @@ RING_OPEN = 1e-5
 and v: files hold them so, and a slit between them would let lines through. Edges that come back so near are closed."""
 
 PIECES_OFF_EDGE = 1e-8
-"""Cubic pieces of an edge of a part are off it by no more than this part of its size: a tenth of what counts as touching
-where a sight line leaves a face."""
+"""Cubic pieces of an edge of a part are off it by no more than this part of its size: a tenth of what counts as
+touching where a sight line leaves a face."""
 
 SEWN_OF_EXTENT = 1e-5
 """Faces of a file without solids are joined along edges that are no farther apart than this part of all of it: a

@@ -104,8 +104,9 @@ def read(
     """The scene in a file: a mesh (one of MESH_SUFFIXES), parts of a CAD system (see cad_files.cad_scene), a molecule
     (xyz, pdb, cif), a terrain (asc, xyz), or the scene language (any other suffix). exaggeration: factor of a terrain's
     heights; where None, extreme heights are scaled by 1, 2 or 5 times a power of ten, with an InputWarning. tolerance:
-    of parts. molecules: see molecule_scene. parts: "triangles" or "exact", see cad_files.cad_scene. A mesh file gives one item, or one for each object or node. Meshes are
-    repaired (see mesh_repair.repaired), reported in one InputWarning a file.
+    of parts. molecules: see molecule_scene. parts: "triangles" or "exact", see cad_files.cad_scene. A mesh file gives
+    one item, or one for each object or node. Meshes are repaired (see mesh_repair.repaired), reported in one
+    InputWarning a file.
     Errors: InputError, one line with file, line and cause; a file of another kind is named as such.
     """
     path = Path(path)

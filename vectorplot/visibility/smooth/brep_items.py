@@ -12,17 +12,20 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.curve_tracing import Tracing
 from vectorplot.features.zero_curves import EVERYWHERE
 from vectorplot.geometry import ragged
-from vectorplot.geometry.algebra import matmul
+from vectorplot.geometry.algebra import inverse_matrix, matmul
 from vectorplot.geometry.chord_refinement import Traces, bisected, refined, straight_between
-from vectorplot.geometry.vectors import dot, norm
+from vectorplot.geometry.elementary import arccos, arctan2
+from vectorplot.geometry.vectors import dot, from_components, norm
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
-from vectorplot.surfaces.brep import Brep, BrepEdges
-from vectorplot.surfaces.placed_surface import placed_once
-from vectorplot.tolerances import EDGE_ON_SINE
+from vectorplot.surfaces.brep import Brep, BrepEdges, TurnedLine
+from vectorplot.surfaces.placed_surface import PlacedSurface, placed_once
+from vectorplot.surfaces.stacked import StackedSurfaces
+from vectorplot.surfaces.surface import Surface
+from vectorplot.tolerances import EDGE_ON_SINE, ON_TRIM
 from vectorplot.visibility.polyhedra.lines import kinds_of
 from vectorplot.visibility.smooth import sight_lines
-from vectorplot.visibility.smooth.curve_families import Along, Chords, ConditionCurves
+from vectorplot.visibility.smooth.curve_families import Along, Chords, ConditionCurves, ParameterCurves
 from vectorplot.visibility.smooth.intersections import within_trims
 from vectorplot.visibility.smooth.parametric_items import contour_condition, contours_of_parametrised
 from vectorplot.visibility.smooth.sheets import ParametricSheet, Sheets, parametric_sheets
@@ -48,13 +51,14 @@ def sheets_of_breps(view: View, breps: Sequence[tuple[Brep, int, bool]]) -> list
     """The sheets of the faces of bodies, given with their items and whether these hide, one after the other."""
     faces = [(face, item, hides) for brep, item, hides in breps for face in brep.trimmed_faces]
     placed = [placed_once(face.surface, view.axes.T / view.scale, np.zeros(3), view.centre) for face, _, _ in faces]
-    return parametric_sheets(
+    sheets = parametric_sheets(
         placed,
         [item for _, item, _ in faces],
         [hides for _, _, hides in faces],
         [face.region for face, _, _ in faces],
         FEWEST,
     )
+    return [replace(sheet, of_body=True) for sheet in sheets]
 
 
 def curves_of_breps(
@@ -69,23 +73,25 @@ def curves_of_breps(
     about items, by name."""
     first = {item: int(np.argmax(sheets.item == item)) for item in breps}
     wanted = {item: kinds_of(scene.items[item], kinds) for item in breps}
-    bent = [
-        (first[item] + number, item)
+    own = {
+        first[item] + number: face.surface
         for item, brep in breps.items()
         for number, face in enumerate(brep.trimmed_faces)
         if not face.flat
-    ]
-    own = {number: sheet for number, _ in bent if isinstance(sheet := sheets[number], ParametricSheet)}
-    parts, doubts = list[Curves](), list[tuple[str, str]]()
-    for number, found in contours_of_parametrised(view, own, tracing).items():
-        family = ConditionCurves(own[number], number, contour_condition(view, own[number].surface))
-        item = own[number].item
-        # Of a face that is all seen edge-on, as a bore from the top, the edges are the whole picture.
+    }
+    curved = {number: sheet for number in own if isinstance(sheet := sheets[number], ParametricSheet)}
+    ruled = {number: sheet for number, sheet in curved.items() if isinstance(_inner(sheet), TurnedLine)}
+    parts, doubts = [_rulings(view, ruled)], list[tuple[str, str]]()
+    others = {number: sheet for number, sheet in curved.items() if number not in ruled}
+    for number, found in contours_of_parametrised(view, others, tracing).items():
+        family = ConditionCurves(others[number], number, contour_condition(view, others[number].surface))
+        item = others[number].item
+        # Of a face that is all seen edge-on the edges are the whole picture.
         doubts += [(scene.items[item].name, text) for text in found.doubts if text != EVERYWHERE]
         if len(found):
             parts.append(as_curves(found, LineKind.CONTOUR, item, family))
     (contours,) = with_merged_families([together(parts)], sheets)
-    contours = within_trims(contours, own)
+    contours = _ends_of_lines(within_trims(contours, curved), ruled)
     shown = [item for item, words in wanted.items() if LineKind.CONTOUR in words]
     hiding = [item for item in breps if scene.items[item].hides]
     borders, drawn = _edges(view, breps, first, sheets, wanted, tracing)
@@ -93,6 +99,76 @@ def curves_of_breps(
         [contours.take(np.flatnonzero(np.isin(contours.item, shown))), drawn],
         [one.take(np.flatnonzero(np.isin(one.item, hiding))) for one in (contours, borders)],
         doubts,
+    )
+
+
+RULING_CHORDS = 32
+"""Chords of a ruling between which is looked for its ends."""
+
+
+def _inner(sheet: ParametricSheet) -> Surface:
+    """The surface of a sheet where it was not placed yet."""
+    return sheet.surface.surface if isinstance(sheet.surface, PlacedSurface) else sheet.surface
+
+
+def _rulings(view: View, sheets: Mapping[int, ParametricSheet]) -> Curves:
+    """The contours of cylinders and cones, by their numbers: rulings, from end to end of the domain.
+
+    The tangent plane along a ruling u contains the eye e where rise (e_x cos u + e_y sin u) = rise radius + growth e_z
+    in the axes of the surface; the direction to it, of a parallel view, where radius counts for nothing.
+    """
+    numbers = np.array(list(sheets), dtype=np.intp)
+    if not len(numbers):
+        return no_curves()
+    placed = [sheet.surface for sheet in sheets.values() if isinstance(sheet.surface, PlacedSurface)]
+    inner = [surface.surface for surface in placed if isinstance(surface.surface, TurnedLine)]
+    radius, growth, rise = np.array([(one.radius, one.growth, one.rise) for one in inner]).T
+    inverse = np.array([inverse_matrix(np.asarray(one.matrix)) for one in placed])
+    shift = np.array([np.asarray(one.shift) for one in placed])
+    towards = np.broadcast_to((0.0, 0.0, 1.0), shift.shape) if view.eye is None else np.asarray(view.eye) - shift
+    x, y, z = matmul(towards[:, None], inverse)[:, 0].T
+    size = np.hypot(x, y)
+    with np.errstate(all="ignore"):
+        cosine = (growth * z + (0.0 if view.eye is None else rise * radius)) / (rise * size)
+    on = np.flatnonzero(np.abs(cosine) < 1.0)
+    middle, half = arctan2(y, x)[on], arccos(cosine[on])
+    u, own = np.concatenate([middle - half, middle + half]), np.tile(on, 2)
+    ends = np.array([(d.u_start, d.u_end, d.v_start, d.v_end) for d in (one.domain for one in inner)])[own]
+    u = u - 2.0 * np.pi * np.floor((u - ends[:, 0]) / (2.0 * np.pi) + ON_TRIM)
+    inside = np.flatnonzero(u <= ends[:, 1] + 2.0 * np.pi * ON_TRIM)
+    u, own, ends = u[inside], own[inside], ends[inside]
+    along = np.linspace(0.0, 1.0, RULING_CHORDS + 1)
+    v = ends[:, 2:3] + along * (ends[:, 3:] - ends[:, 2:3])
+    places = from_components(np.repeat(u, len(along)), v.ravel(), 0.0)
+    items = np.array([sheet.item for sheet in sheets.values()], dtype=np.intp)
+    families = tuple(ParameterCurves(sheet, number, degrees_along=(0, 1)) for number, sheet in sheets.items())
+    stack = StackedSurfaces(tuple(placed))
+    points = stack.at(np.repeat(own, len(along))).points(places[:, 0], places[:, 1])
+    count = len(own)
+    return Curves(
+        points,
+        places,
+        np.full_like(places, np.nan),
+        np.arange(0, len(places) + 1, len(along)),
+        np.zeros(count, dtype=np.bool_),
+        np.full(count, int(LineKind.CONTOUR)),
+        items[own],
+        own,
+        np.zeros(count),
+        families,
+    )
+
+
+def _ends_of_lines(curves: Curves, ruled: Collection[int]) -> Curves:
+    """The curves, of those on some sheets, by their numbers, only the ends: they are straight."""
+    kept = ~np.isin(curves.sheet, list(ruled))[curves.owner]
+    kept[curves.offsets[:-1]], kept[curves.offsets[1:] - 1] = True, True
+    return replace(
+        curves,
+        points=curves.points[kept],
+        places=curves.places[kept],
+        second_places=curves.second_places[kept],
+        offsets=ragged.offsets(np.bincount(curves.owner[kept], minlength=len(curves))),
     )
 
 

@@ -121,9 +121,10 @@ def _chords_within(view: View, edges: Curves, chord: Ints, image: Floats, reach:
 
 def _from_chords(view: View, edges: Curves, chord: Ints, image: Floats) -> Floats:
     """(k,) distances of points (k,2) of the image from a chord each."""
-    import shapely
-
-    return np.asarray(shapely.distance(shapely.points(image), _lines(view, edges, chord)))
+    start, end = (sight_lines.image(view, edges.points[at]) for at in (chord, chord + 1))
+    way = end - start
+    part = np.clip(dot(image - start, way) / np.maximum(dot(way, way), LEAST_DIVISOR), 0.0, 1.0)
+    return norm(start + part[:, None] * way - image)
 
 
 def _lines(view: View, edges: Curves, chord: Ints) -> NDArray[np.object_]:

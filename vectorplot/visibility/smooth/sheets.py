@@ -17,6 +17,7 @@ from vectorplot.features.holes import along_rims, in_domain, inside, into_surfac
 from vectorplot.features.implicit_meshes import ImplicitMesh, mesh_with_lines
 from vectorplot.features.implicit_singular_lines import CuspidalEdges, default_gradient, singular_lines
 from vectorplot.features.polygonization import polygonized, sides_of
+from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul, pseudo_inverse
 from vectorplot.geometry.vectors import any_component, cross, dot, from_components, norm
 from vectorplot.scene.view import View
@@ -485,7 +486,8 @@ class ParametricSheet(OnParametrised):
     that were left out, because the surface jumps beneath them; holed: whether it has holes; creases: the v at which
     another sheet of the item begins behind a sharp edge; is_cap: whether it is a flat end, without parameter lines;
     trims: the part of the domain that curves leave, if these are all that ends it: then what is beyond them is known,
-    as of no hole, and the tessellation goes on a little."""
+    as of no hole, and the tessellation goes on a little; of_body: whether it is a face of a body, of which no curve
+    pierces another face."""
 
     surface: Surface
     item: int
@@ -499,6 +501,7 @@ class ParametricSheet(OnParametrised):
     creases: tuple[float, ...] = ()
     is_cap: bool = False
     trims: ParameterRegions | None = None
+    of_body: bool = False
 
     @cached_property
     def whole(self) -> ParametricSheet:
@@ -544,8 +547,11 @@ def parametric_sheets(
             grids = _Grids.of(stack.take(own), int(columns[own[0]]), int(rows[own[0]]), deviation[own])
             for row, number in enumerate(part[own].tolist()):
                 sheets[number] = grids.sheet(row, asked[number], items[number], hides[number])
-                if (trim := trims[number]) is not None:
-                    sheets[number] = replace(_trimmed(sheets[number], trim), surface=surfaces[number], trims=trim)
+    own = [number for number, trim in enumerate(trims) if trim is not None]
+    for number, sheet in zip(
+        own, _trimmed([sheets[k] for k in own], [trim for trim in trims if trim is not None]), strict=True
+    ):
+        sheets[number] = replace(sheet, surface=surfaces[number])
     return [sheets[number] for number in range(len(surfaces))]
 
 
@@ -602,20 +608,28 @@ class _Grids:
         )
 
 
-def _trimmed(sheet: ParametricSheet, trims: ParameterRegions) -> ParametricSheet:
-    """A sheet with those triangles of its tessellation of which a part may be within trims."""
-    u, v = sheet.vertex_places[:, 0], sheet.vertex_places[:, 1]
-    kept = any_component(trims.contains(u, v)[sheet.corners]) | trims.borders_within(
-        *(some(sheet.vertex_places[sheet.corners, :2], axis=1) for some in (np.min, np.max))
-    )
-    used, corners = np.unique(sheet.corners[kept], return_inverse=True)
-    return replace(
-        sheet,
-        vertices=sheet.vertices[used],
-        vertex_places=sheet.vertex_places[used],
-        corners=corners.reshape(-1, 3),
-        deviations=sheet.deviations[kept],
-    )
+def _trimmed(sheets: Sequence[ParametricSheet], trims: Sequence[ParameterRegions]) -> Iterator[ParametricSheet]:
+    """Sheets with those triangles of their tessellations of which a part may be within their trims."""
+    if not sheets:
+        return
+    sizes = np.array([len(sheet.vertex_places) for sheet in sheets])
+    places = np.concatenate([sheet.vertex_places for sheet in sheets])
+    # All are asked at once: a few places take as long as many.
+    inner = ParameterRegions.together(trims).contains(places[:, 0], places[:, 1], ragged.owner(sizes))
+    for sheet, trim, first, size in zip(sheets, trims, ragged.starts(sizes).tolist(), sizes.tolist(), strict=True):
+        kept = any_component(inner[first : first + size][sheet.corners])
+        rest = np.flatnonzero(~kept)
+        corners = sheet.vertex_places[sheet.corners[rest], :2]
+        kept[rest] = trim.borders_within(*(some(corners, axis=1) for some in (np.min, np.max)))
+        used, corners = np.unique(sheet.corners[kept], return_inverse=True)
+        yield replace(
+            sheet,
+            vertices=sheet.vertices[used],
+            vertex_places=sheet.vertex_places[used],
+            corners=corners.reshape(-1, 3),
+            deviations=sheet.deviations[kept],
+            trims=trim,
+        )
 
 
 def _longest(triangles: Floats) -> Floats:
@@ -895,6 +909,12 @@ class Sheets:
     def hides(self) -> Bools:
         """(s,) whether they hide what is behind them."""
         return np.array([sheet.hides for sheet in self.sheets], dtype=np.bool_)
+
+    @cached_property
+    def of_body(self) -> Bools:
+        """(s,) whether they are faces of bodies."""
+        own = (isinstance(sheet, ParametricSheet) and sheet.of_body for sheet in self.sheets)
+        return np.fromiter(own, dtype=np.bool_, count=len(self.sheets))
 
     @cached_property
     def groups(self) -> tuple[SheetGroup, ...]:
