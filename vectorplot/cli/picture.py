@@ -208,8 +208,13 @@ class Source:
         from vectorplot.io.read_file import read_named
         from vectorplot.scene.scene import together
 
-        how = {"tolerance": self.tolerance, "molecules": self.molecules, "parts": self.parts}
-        reading = partial(read_named, exaggeration=self.exaggeration, **how)
+        reading = partial(
+            read_named,
+            exaggeration=self.exaggeration,
+            tolerance=self.tolerance,
+            molecules=self.molecules,
+            parts=self.parts,
+        )
         scenes = [reading(path) for path in self.paths]
         for path, scene in zip(self.paths, scenes, strict=True):
             told = None if self.upright else up_axis_hint(path, scene)

@@ -17,13 +17,12 @@ from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.budget import may_stop
 from vectorplot.geometry.vectors import dot, norm
 from vectorplot.io.opencascade import Numbers, explored, occ
-from vectorplot.surfaces.algebraic import mean_curvature
 from vectorplot.surfaces.brep import BrepEdges, BrepFace, Plane, Transposed, TurnedCircle, TurnedLine
 from vectorplot.surfaces.parameter_regions import bounds_of_loops, parameter_region
 from vectorplot.surfaces.placed_surface import PlacedSurface
 from vectorplot.surfaces.splines import SplineSurface
 from vectorplot.surfaces.stacked import unit_normals
-from vectorplot.surfaces.surface import Domain, OverDomain
+from vectorplot.surfaces.surface import Domain, OverDomain, second_jets
 from vectorplot.surfaces.swept import Screw, Swept
 from vectorplot.tolerances import CAD_EDGE_OFF_FACE, PIECES_OFF_EDGE, RING_OPEN
 
@@ -355,7 +354,7 @@ def _spline_surface(surface: Any, kind: str) -> SplineSurface:
     controls = np.array([[spline.Pole(i, j).Coord() for j in many_v] for i in many_u])
     rational = spline.IsURational() or spline.IsVRational()
     weights = np.array([[spline.Weight(i, j) for j in many_v] for i in many_u]) if rational else None
-    return SplineSurface(controls, *knots, spline.UDegree() + 1, spline.VDegree() + 1, weights)
+    return SplineSurface(controls, knots[0], knots[1], spline.UDegree() + 1, spline.VDegree() + 1, weights)
 
 
 def _knots(count: int, knot: Callable[[int], float], many: Callable[[int], int]) -> Floats:
@@ -474,18 +473,33 @@ def _together(
     order = np.argsort(owner, kind="stable")
     for number in np.unique(owner).tolist():
         may_stop()
-        own = order[np.searchsorted(owner[order], number) : np.searchsorted(owner[order], number, side="right")]
-        rows = ragged.ranges(edges.offsets[own], sizes[own])
+        begin, end = np.searchsorted(owner[order], [number, number + 1])
+        which = order[begin:end]
+        rows = ragged.ranges(edges.offsets[which], sizes[which])
         surface, sign = made[number].surface, -1.0 if made[number].turned else 1.0
         u, v = edges.places[rows].T
         with np.errstate(all="ignore"):
             off[rows] = norm(surface.points(u, v) - edges.points[rows])
             normals[rows] = sign * np.nan_to_num(unit_normals(surface, u, v))
-            bending[rows] = 0.0 if made[number].flat else sign * mean_curvature(surface, u, v)
+            _, along_u, along_v, *second = second_jets(surface, u, v)
+            bending[rows] = mean_curvatures((along_u, along_v), second, normals[rows])
     extent = float(norm(np.ptp(edges.points, axis=0)))
     if not float(off.max()) <= CAD_EDGE_OFF_FACE * extent:
         raise NotMapped("an edge that does not lie on its face")
     return BodyFaces(tuple(made), edges, normals, bending)
+
+
+def mean_curvatures(first: Sequence[Floats], second: Sequence[Floats], normals: Floats) -> Floats:
+    """(k,) the mean curvatures of surfaces, positive where they bend towards unit normals (k,3).
+
+    first (k,3): derivatives by u and by v; second (k,3): by u twice, by u and v, by v twice. Not finite where there is
+    no tangent plane.
+    """
+    along_u, along_v = first
+    e, f, g = dot(along_u, along_u), dot(along_u, along_v), dot(along_v, along_v)
+    second_u, mixed, second_v = (dot(part, normals) for part in second)
+    with np.errstate(all="ignore"):
+        return np.asarray((e * second_v - 2.0 * f * mixed + g * second_u) / (2.0 * (e * g - f * f)))
 
 
 def _is_seam(use: _Use, others: Sequence[_Use], domain: Domain) -> bool:

@@ -23,7 +23,7 @@ from vectorplot.geometry.budget import may_stop
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.vectors import cross, dot, norm
 from vectorplot.geometry.weld import distinct_points
-from vectorplot.io.cad_faces import TANGENT_COSINE, NotMapped, body_faces
+from vectorplot.io.cad_faces import TANGENT_COSINE, NotMapped, body_faces, mean_curvatures
 from vectorplot.io.material_library import looks_of_colours
 from vectorplot.io.mesh_file import shown
 from vectorplot.io.opencascade import Numbers, explored, occ
@@ -729,7 +729,5 @@ def _surface(face: Any, triangulation: Any) -> tuple[bool, Floats, Floats]:
     # Where parameter lines meet in a point, or run along each other, there is no normal.
     none = norm(normals) <= NO_CAD_NORMAL * sizes.max(axis=0, initial=0.0).prod()
     normals = np.where(none[:, None], 0.0, normals / np.where(none, 1.0, norm(normals))[:, None])
-    e, f, g = dot(along_u, along_u), dot(along_u, along_v), dot(along_v, along_v)
-    second_u, second_v, mixed = (dot(found[:, k], normals) for k in (2, 3, 4))
-    area = np.where(none, np.nan, 2.0 * (e * g - f * f))
-    return is_flat, normals, (e * second_v - 2.0 * f * mixed + g * second_u) / area
+    bent = mean_curvatures((along_u, along_v), (found[:, 2], found[:, 4], found[:, 3]), normals)
+    return is_flat, normals, np.where(none, np.nan, bent)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Protocol, TypeGuard, runtime_checkable
+from typing import Protocol, TypeGuard, runtime_checkable
 
 import numpy as np
 
@@ -11,9 +11,6 @@ from vectorplot.arrays import Bools, Floats
 from vectorplot.curves.derivatives import Range, numeric_function
 from vectorplot.errors import InputError
 from vectorplot.geometry.vectors import cross
-
-if TYPE_CHECKING:
-    from vectorplot.surfaces.brep import Brep
 
 # What every surface can do, and where it is defined.
 
@@ -138,11 +135,6 @@ def is_parametrised(shape: object) -> TypeGuard[Surface]:
 def is_implicit(shape: object) -> TypeGuard[ImplicitSurface]:
     """Whether a shape is an implicit surface: it has a box and gradients, and no domain."""
     return hasattr(shape, "box") and hasattr(shape, "gradients") and not hasattr(shape, "domain")
-
-
-def is_brep(shape: object) -> TypeGuard[Brep]:
-    """Whether a shape is a body known by its trimmed faces."""
-    return hasattr(shape, "trimmed_faces")
 
 
 @runtime_checkable

@@ -26,7 +26,6 @@ from vectorplot.geometry.vectors import all_finite
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
 from vectorplot.surfaces.parameter_regions import ParameterRegions
-from vectorplot.surfaces.surface import is_brep
 from vectorplot.surfaces.trimmed import is_embedded
 from vectorplot.tolerances import OUTSIDE_DOMAIN
 from vectorplot.visibility.polyhedra.lines import kept_apart
@@ -225,7 +224,7 @@ def meetings(scene: Scene, view: View, sheets: tuple[SmoothSheet, ...], wants: B
         # Where an implicit surface meets itself its gradient vanishes; these lines are not looked for.
         itself[number] = isinstance(sheet, ParametricSheet) and not is_embedded(sheet.surface)
         # Faces of bodies end before they would.
-        itself[number] &= not is_brep(scene.items[sheet.item].shape)
+        itself[number] &= not (isinstance(sheet, ParametricSheet) and sheet.of_body)
         if itself[number] and wants[sheet.item] and isinstance(sheet, ParametricSheet):
             found = self_intersections(sheet.asked, tracing=tracing)
             itself[number] = len(found) > 0 or bool(found.doubts)

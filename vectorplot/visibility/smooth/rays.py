@@ -445,7 +445,7 @@ def _off_own(sheets: Sheets, number: Ints, places: Floats, points: Floats, way: 
     normals = sheets.normals(number, places)
     with np.errstate(divide="ignore", invalid="ignore"):
         part = dot(normals, sheets.points(number, places) - points) / dot(normals, way)
-    return np.nan_to_num(np.abs(part) * np.linalg.norm(way, axis=1), posinf=0.0)
+    return np.asarray(np.nan_to_num(np.abs(part) * np.linalg.norm(way, axis=1), posinf=0.0))
 
 
 def _second_meeting(sheets: Sheets, number: Ints, way: Floats, places: Floats) -> Floats:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -19,7 +18,8 @@ from vectorplot.geometry.chord_refinement import Traces, bisected, refined, stra
 from vectorplot.geometry.vectors import dot, norm
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
-from vectorplot.surfaces.surface import is_brep, is_implicit, is_parametrised
+from vectorplot.surfaces.brep import Brep
+from vectorplot.surfaces.surface import is_implicit, is_parametrised
 from vectorplot.tolerances import SETTLED_ON_SHEET, ZERO_OF_EXTENT
 from vectorplot.visibility.polyhedra.lines import items_wanting, kinds_of
 from vectorplot.visibility.smooth import sight_lines
@@ -36,9 +36,6 @@ from vectorplot.visibility.smooth.parametric_items import (
 from vectorplot.visibility.smooth.sheets import ParametricSheet, Sheets, implicit_sheet
 from vectorplot.visibility.smooth.traced_curves import Curves, together, with_merged_families
 from vectorplot.words import LineKind
-
-if TYPE_CHECKING:
-    from vectorplot.surfaces.brep import Brep
 
 # The sharp edges at which the sheets of an item meet, as lines of their own.
 
@@ -354,9 +351,8 @@ def scene_sheets(scene: Scene, view: View, without: Collection[int] = ()) -> tup
 
 def breps_of(scene: Scene, without: Collection[int] = ()) -> dict[int, Brep]:
     """The bodies of a scene that are known by their faces, by the numbers of their items, without some."""
-    return {
-        number: item.shape for number, item in enumerate(scene.items) if is_brep(item.shape) and number not in without
-    }
+    bodies = {k: item.shape for k, item in enumerate(scene.items) if isinstance(item.shape, Brep)}
+    return {number: body for number, body in bodies.items() if number not in without}
 
 
 def traced_scene(
@@ -405,10 +401,10 @@ def traced_scene(
     if breps:
         from vectorplot.visibility.smooth.brep_items import curves_of_breps
 
-        found, hiding, unsure = curves_of_breps(scene, view, breps, all_sheets, kinds, tracing)
-        drawn += found
-        edges += hiding
-        doubts += unsure
+        found = curves_of_breps(scene, view, breps, all_sheets, kinds, tracing)
+        drawn += found[0]
+        edges += found[1]
+        doubts += found[2]
     wants = items_wanting(LineKind.INTERSECTION, scene, kinds)
     met = meetings(scene, view, sheets, wants, tracing)
     doubts += met.doubts

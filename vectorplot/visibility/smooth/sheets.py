@@ -547,10 +547,9 @@ def parametric_sheets(
             grids = _Grids.of(stack.take(own), int(columns[own[0]]), int(rows[own[0]]), deviation[own])
             for row, number in enumerate(part[own].tolist()):
                 sheets[number] = grids.sheet(row, asked[number], items[number], hides[number])
-    own = [number for number, trim in enumerate(trims) if trim is not None]
-    for number, sheet in zip(
-        own, _trimmed([sheets[k] for k in own], [trim for trim in trims if trim is not None]), strict=True
-    ):
+    trimmed = {number: trim for number, trim in enumerate(trims) if trim is not None}
+    ended = _trimmed([sheets[number] for number in trimmed], list(trimmed.values()))
+    for number, sheet in zip(trimmed, ended, strict=True):
         sheets[number] = replace(sheet, surface=surfaces[number])
     return [sheets[number] for number in range(len(surfaces))]
 
@@ -619,8 +618,8 @@ def _trimmed(sheets: Sequence[ParametricSheet], trims: Sequence[ParameterRegions
     for sheet, trim, first, size in zip(sheets, trims, ragged.starts(sizes).tolist(), sizes.tolist(), strict=True):
         kept = any_component(inner[first : first + size][sheet.corners])
         rest = np.flatnonzero(~kept)
-        corners = sheet.vertex_places[sheet.corners[rest], :2]
-        kept[rest] = trim.borders_within(*(some(corners, axis=1) for some in (np.min, np.max)))
+        ends = sheet.vertex_places[sheet.corners[rest], :2]
+        kept[rest] = trim.borders_within(*(some(ends, axis=1) for some in (np.min, np.max)))
         used, corners = np.unique(sheet.corners[kept], return_inverse=True)
         yield replace(
             sheet,
