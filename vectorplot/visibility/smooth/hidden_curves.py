@@ -55,17 +55,15 @@ def clearances(view: View, edges: Curves, points: Floats, tolerance: float) -> F
         which, other = on[which[apart]], other[apart]
         from_border[on] = reach
         np.minimum.at(from_border, which, _from_chords(view, edges, other, image[which]))
-    clear = np.minimum(distance, from_border)
-    near = np.flatnonzero(clear <= SAFE_IN_IMAGE)
-    if len(near):
-        clear[near] = _clear_before(view, edges, points[near], image[near], tolerance)
-    return clear
+    return np.minimum(distance, from_border)
 
 
-def _clear_before(view: View, edges: Curves, points: Floats, image: Floats, tolerance: float) -> Floats:
-    """(k,) the same of points that are near edges, of which those behind them do not count; no more than a little
-    farther than what is safe."""
-    clear = np.full(len(points), BEYOND * SAFE_IN_IMAGE)
+def clearances_before(view: View, edges: Curves, points: Floats, tolerance: float) -> Floats:
+    """(k,) the same of points that are near edges, where those that are farther away than the points do not count: no
+    more than a little farther than what is safe. What is seen in front of a point they do not change."""
+    if not len(points):
+        return np.zeros(0)
+    image, clear = sight_lines.image(view, points), np.full(len(points), BEYOND * SAFE_IN_IMAGE)
     which, chord = _chords_within(view, edges, edges.chords, image, BEYOND * SAFE_IN_IMAGE)
     depth = sight_lines.depth(view, edges.points)
     before = np.minimum(depth[chord], depth[chord + 1]) <= sight_lines.depth(view, points)[which] + TOUCHING_OF_EXTENT
@@ -403,8 +401,10 @@ def _clear(
     points = _on_chords(curves, chord.ravel(), (at - chord).ravel())
     image = sight_lines.image(view, points)
     contour = np.tile(edge_on[pieces.curve], len(at))
-    clear = np.empty(at.size)
+    clear = np.full(at.size, np.inf)
     clear[~contour] = clearances(view, edges, points[~contour], tolerance)
+    near = np.flatnonzero(~contour & (clear <= SAFE_IN_IMAGE))
+    clear[near] = clearances_before(view, edges, points[near], tolerance)
     # A contour is an edge itself: what counts is the way to the ends of the piece.
     ends = [sight_lines.image(view, _on_chords(curves, c, p)) for c, p in _ends(pieces)]
     away = [np.linalg.norm(image - np.tile(e, (len(at), 1)), axis=1) for e in ends]
