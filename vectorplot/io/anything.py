@@ -35,14 +35,41 @@ CURVE_HINT = "; vectorplot.curves.spline_curve(points, AkimaSpline()) is the cur
 
 
 def scene_of(shown: object, *, parts: str | None = None) -> Scene:
-    """The scene of anything with a shape: a path, read as by `vp.read`; shapes, as gray items named after what they
-    are; a shape of build123d, CadQuery or OpenCASCADE; a mesh of another library, known by vertices and faces or by
-    points and cells, whose volumes show their outer faces; arrays of vertices (n,3) and faces (f,k); a Terrain or
-    heights (m,n), with level lines, extreme heights of arrays scaled as in files; a list of these, or a mapping that
-    names them. Camera, page, background and title are the first that any has. parts: how parts of CAD systems among it
-    are drawn, "triangles" (where None) or "exact", as in `vp.read`.
-    Errors: TypeError for anything else; as `vp.read`, for meshes that make no sense, and for a drawing. Warns
-    InputWarning: what was repaired of other meshes and of arrays; how heights were scaled.
+    """The scene of anything with a shape.
+
+    Parameters
+    ----------
+    shown : path, Scene, Item, Mesh, surface, curve, or several of these
+        A path is read as by `vp.read`; shapes become gray items named after what they are; so do a shape of build123d,
+        CadQuery or OpenCASCADE, a mesh of another library, known by vertices and faces or by points and cells, whose
+        volumes show their outer faces, arrays of vertices (n, 3) and faces (f, k), and a Terrain or heights (m, n), with
+        level lines, extreme heights of arrays scaled as in files; a list of these, or a mapping that names them.
+    parts : {"triangles", "exact"}, optional
+        How parts of CAD systems among it are drawn, as in `vp.read`.
+
+    Returns
+    -------
+    Scene
+        Camera, page, background and title are the first that any has.
+
+    Raises
+    ------
+    TypeError
+        For anything else.
+    InputError
+        As in `vp.read`; for meshes that make no sense, and for a drawing.
+
+    Warns
+    -----
+    InputWarning
+        What was repaired of other meshes and of arrays; how heights were scaled.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot import geometry, io
+    >>> io.scene_of({"box": geometry.box((1, 1, 1)), "other": geometry.box((2, 1, 1))})
+    <Scene '': 2 items, 0 lights>
     """
     return _scene_of(shown, (), parts)
 
