@@ -42,8 +42,8 @@ def scene_of(shown: object, *, parts: str | None = None) -> Scene:
     shown : path, Scene, Item, Mesh, surface, curve, or several of these
         A path is read as by `vp.read`; shapes become gray items named after what they are; so do a shape of build123d,
         CadQuery or OpenCASCADE, a mesh of another library, known by vertices and faces or by points and cells, whose
-        volumes show their outer faces, arrays of vertices (n, 3) and faces (f, k), and a Terrain or heights (m, n), with
-        level lines, extreme heights of arrays scaled as in files; a list of these, or a mapping that names them.
+        volumes show their outer faces, arrays of vertices (n, 3) and faces (f, k), and a Terrain or heights (m, n),
+        with level lines, extreme heights of arrays scaled as in files; a list of these, or a mapping that names them.
     parts : {"triangles", "exact"}, optional
         How parts of CAD systems among it are drawn, as in `vp.read`.
 
