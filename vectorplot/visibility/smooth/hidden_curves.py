@@ -635,8 +635,10 @@ def hidden_curves(
     events = all_events([own, crossed, pierced])
     pieces = cut(curves, events)
 
+    once = _once(edges)
+
     def count(pieces: Pieces) -> Counts:
-        return counted(view, sheets, targets, curves, traced.stretches, edges, edge_on, pieces, tolerance, budget.pairs)
+        return counted(view, sheets, targets, curves, traced.stretches, once, edge_on, pieces, tolerance, budget.pairs)
 
     counts = count(pieces)
     done(0.8)
@@ -651,6 +653,16 @@ def hidden_curves(
     hidden_by = np.bincount(carried(pieces, believed(pieces, counts)).row, minlength=len(pieces))
     hidden_by = without_short_runs(view, curves, pieces, hidden_by, 2.0 * tolerance)
     return HiddenCurves(pieces, hidden_by, tuple(sorted(short)))
+
+
+def _once(edges: Curves) -> Curves:
+    """The edges without those that are others again, as the borders of two faces at one edge are."""
+    if not len(edges):
+        return edges
+    begin, end = edges.offsets[:-1], edges.offsets[1:] - 1
+    ends = [edges.points[at] for at in (begin, begin + 1, end)]
+    _, first = np.unique(np.column_stack([*ends, edges.kind, end - begin]), axis=0, return_index=True)
+    return edges.take(np.sort(first))
 
 
 def cut_curves(sheets: Sheets, curves: Curves, found: HiddenCurves) -> tuple[Floats, Floats, ChordParts, Ints]:
