@@ -15,6 +15,7 @@ def read(
     exaggeration: float | None = None,
     tolerance: float | None = None,
     molecules: str | None = None,
+    parts: str | None = None,
 ) -> Scene | Any:
     """The scene in a file, or the drawing that `save` wrote into one.
 
@@ -32,6 +33,10 @@ def read(
         (None: 0.00005, as much as 0.02 mm on a page A4).
     molecules : str, optional
         How a molecule is shown: ball-and-stick (where None), space-filling, tube or ribbon; see `io.molecule_scene`.
+    parts : {"triangles", "exact"}, optional
+        What the lines of parts of a CAD system are taken from: fine triangles (where None), or the surfaces of their
+        faces, on which lines are exact in every view; it takes a few times as long. What is painted, hatched, cut and
+        rendered is triangles either way.
 
     Returns
     -------
@@ -42,7 +47,7 @@ def read(
     ------
     InputError
         One line with the file, the line where there is one, and the cause; for an exaggeration of what is no terrain,
-        a tolerance that is not positive, and a style of molecules of what is none.
+        a tolerance that is not positive, and a style of molecules or a way of drawing parts for what is none.
     OSError
         For a drawing that cannot be opened.
 
@@ -60,10 +65,10 @@ def read(
     ...     vp.read(path)
     <Scene 'Box': 1 items, 0 lights>
     """
-    if Path(path).suffix.lower() == ".json" and exaggeration is None and molecules is None:
+    if Path(path).suffix.lower() == ".json" and exaggeration is None and molecules is None and parts is None:
         from vectorplot.backends.json import read_drawing
 
         return read_drawing(path)
     from vectorplot.io.read_file import read as read_file
 
-    return read_file(path, exaggeration=exaggeration, tolerance=tolerance, molecules=molecules)
+    return read_file(path, exaggeration=exaggeration, tolerance=tolerance, molecules=molecules, parts=parts)

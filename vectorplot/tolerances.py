@@ -32,6 +32,18 @@ NO_CAD_NORMAL = 1e-6
 """Where both parameter lines of a face of a part span an area no larger than this part of what the longest ones of the
 face could, its surface has no normal there: at the tip of a cone, the pole of a ball."""
 
+CAD_EDGE_OFF_FACE = 1e-5
+"""An edge of a part lies on its faces if it is no farther off than this part of the body: what files call precise, and
+less than is seen; a body with an edge farther off is drawn from its triangles."""
+
+RING_OPEN = 1e-5
+"""Edges of a part end where the next ones begin if they end no farther from there than this part of their face, in u
+and v: files hold them so, and a slit between them would let lines through. Edges that come back so near are closed."""
+
+PIECES_OFF_EDGE = 1e-8
+"""Cubic pieces of an edge of a part are off it by no more than this part of its size: a tenth of what counts as
+touching where a sight line leaves a face."""
+
 SEWN_OF_EXTENT = 1e-5
 """Faces of a file without solids are joined along edges that are no farther apart than this part of all of it: a
 hundredth of a millimetre of a metre, as systems for surfaces have it."""

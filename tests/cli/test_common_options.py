@@ -97,7 +97,18 @@ def test_verbs_differ_in_the_lines_they_draw_unasked_and_in_nothing_else_by_defa
 )
 def test_options_are_the_keywords_of_python_with_the_same_defaults(verb, function, turned):
     said = verb.make_context(verb.name, ["cube.obj", "-o", "cube.png"]).params
-    outside = {"scene_file", "out", "format_", "exaggeration", "molecules", "explain", "quiet", "strict", "certificate"}
+    outside = {
+        "scene_file",
+        "out",
+        "format_",
+        "exaggeration",
+        "molecules",
+        "parts",
+        "explain",
+        "quiet",
+        "strict",
+        "certificate",
+    }
     outside |= {"tiles"}
     told = Told.of({name: said[name] for name in said if name not in outside})
     keywords = inspect.signature(function).parameters

@@ -8,6 +8,10 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
+import vectorplot as vp
+
 
 def occ(module: str, name: str) -> Any:
     """A name of a module of OpenCASCADE."""
@@ -349,3 +353,38 @@ def bearing(path: Path) -> Path:
         "bearing", (house_part, (0, 0, 0)), (turning, (0, 0, 0)), (bolt_part, (-44, 0, 0)), (bolt_part, (44, 0, 0))
     )
     return whole.write(path)
+
+
+# Rays of OpenCASCADE as oracles.
+
+
+def samples(drawing: vp.Drawing) -> list[tuple[np.ndarray, bool]]:
+    """Places in the middles of some segments of every line that is longer than 2 mm, and whether they are visible."""
+    found = []
+    for layer in drawing.layers:
+        for paths in layer.strokes:
+            for k in range(len(paths)):
+                inside = slice(int(paths.offsets[k]), int(paths.offsets[k + 1]))
+                flat, points = paths.points[inside], paths.points3d[inside]
+                if np.hypot(*np.diff(flat, axis=0).T).sum() < 2.0:
+                    continue
+                for at in np.unique(np.linspace(0, len(points) - 2, 4).round().astype(int)).tolist():
+                    found.append((0.5 * (points[at] + points[at + 1]), bool(paths.hidden_by[k] == 0)))
+    return found
+
+
+def agrees(shape: object, place: np.ndarray, way: np.ndarray, seen: bool, extent: float) -> bool:
+    """Whether a ray from a place, or from one within the tolerance beside it, meets the shape as it must."""
+    rays = occ("IntCurvesFace", "IntCurvesFace_ShapeIntersector")()
+    rays.Load(shape, 1e-7)
+    one = np.cross(way, (0.3, 0.5, 0.8))
+    one /= np.linalg.norm(one)
+    other, near = np.cross(way, one), 5e-4 * extent
+    for x, y in ((0, 0), *((x, y) for x in (-1, 0, 1) for y in (-1, 0, 1) if x or y)):
+        start = place + near * (x * one + y * other)
+        line = occ("gp", "gp_Lin")(occ("gp", "gp_Pnt")(*start.tolist()), occ("gp", "gp_Dir")(*way.tolist()))
+        # A place on a chord is a little inside: what the ray leaves again at once is its own surface.
+        rays.Perform(line, (0.03 if seen else 4e-4) * extent, 1e3 * extent)
+        if (rays.NbPnt() == 0) == seen:
+            return True
+    return False

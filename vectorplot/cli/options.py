@@ -823,6 +823,12 @@ MOLECULES = click.option(
     help="How molecules are shown.  [default: ball-and-stick]",
 )
 
+PARTS = click.option(
+    "--parts",
+    type=click.Choice(["triangles", "exact"]),
+    help="What lines of CAD parts are taken from: fine triangles, or the surfaces.  [default: triangles]",
+)
+
 OUT = click.option("-o", "--out", required=True, type=click.Path(), metavar="OUT", help="File to write; - for stdout.")
 
 OUT_OR_FOLDER = click.option(
@@ -840,6 +846,7 @@ _OF_THE_FILE = (
     "format_",
     "exaggeration",
     "molecules",
+    "parts",
     "quiet",
     "explain",
     "strict",
@@ -1046,7 +1053,8 @@ def picture_verb(
                 return made
 
             upright, fineness = told.camera.says_where(), told.fineness
-            source = Source(params["scene_file"], params["exaggeration"], upright, fineness, params["molecules"])
+            how = params["molecules"], params["parts"]
+            source = Source(params["scene_file"], params["exaggeration"], upright, fineness, *how)
             said = {"source": source, "format_": written, "picture": picture, "jobs": jobs, "overlaid": overlaid}
             beside = [] if params.get("certificate") is None else [_proof(params, told, source)]
             beside += [] if params.get("tiles") is None else tiles_beside(params, written)
@@ -1068,6 +1076,7 @@ def picture_verb(
             format_option(formats),
             EXAGGERATION,
             MOLECULES,
+            PARTS,
             *CAMERA_OPTIONS,
             *options,
             *LINE_OPTIONS,

@@ -187,14 +187,15 @@ def kept_promise(
 @dataclass(frozen=True)
 class Source:
     """The files that a picture is made of; exaggeration: of the heights of a terrain, None for the usual one; upright:
-    the user has said where one looks from, or what is up; tolerance: of parts of CAD systems, and molecules: their
-    style, as in vectorplot.read."""
+    the user has said where one looks from, or what is up; tolerance: of parts of CAD systems, parts: how they
+    are drawn, and molecules: their style, as in vectorplot.read."""
 
     paths: tuple[str, ...]
     exaggeration: float | None = None
     upright: bool = False
     tolerance: float | None = None
     molecules: str | None = None
+    parts: str | None = None
 
     @property
     def name(self) -> str:
@@ -208,7 +209,11 @@ class Source:
         from vectorplot.scene.scene import together
 
         reading = partial(
-            read_named, exaggeration=self.exaggeration, tolerance=self.tolerance, molecules=self.molecules
+            read_named,
+            exaggeration=self.exaggeration,
+            tolerance=self.tolerance,
+            molecules=self.molecules,
+            parts=self.parts,
         )
         scenes = [reading(path) for path in self.paths]
         for path, scene in zip(self.paths, scenes, strict=True):

@@ -1,3 +1,4 @@
+from .anything import scene_of
 from .molecules import Molecule, molecule_scene, read_molecule
 from .scene_language import parse_scene
 from .terrain_files import read_terrain
@@ -8,4 +9,5 @@ __all__ = [
     "parse_scene",
     "read_molecule",
     "read_terrain",
+    "scene_of",
 ]

@@ -34,26 +34,54 @@ CURVE_HINT = "; vectorplot.curves.spline_curve(points, AkimaSpline()) is the cur
 """What is said of points."""
 
 
-def scene_of(shown: object) -> Scene:
-    """The scene of anything with a shape: a path, read as by `vp.read`; shapes, as gray items named after what they
-    are; a shape of build123d, CadQuery or OpenCASCADE; a mesh of another library, known by vertices and faces or by
-    points and cells, whose volumes show their outer faces; arrays of vertices (n,3) and faces (f,k); a Terrain or
-    heights (m,n), with level lines, extreme heights of arrays scaled as in files; a list of these, or a mapping that
-    names them. Camera, page, background and title are the first that any has.
-    Errors: TypeError for anything else; as `vp.read`, for meshes that make no sense, and for a drawing. Warns
-    InputWarning: what was repaired of other meshes and of arrays; how heights were scaled.
+def scene_of(shown: object, *, parts: str | None = None) -> Scene:
+    """The scene of anything with a shape.
+
+    Parameters
+    ----------
+    shown : path, Scene, Item, Mesh, surface, curve, or several of these
+        A path is read as by `vp.read`; shapes become gray items named after what they are; so do a shape of build123d,
+        CadQuery or OpenCASCADE, a mesh of another library, known by vertices and faces or by points and cells, whose
+        volumes show their outer faces, arrays of vertices (n, 3) and faces (f, k), and a Terrain or heights (m, n),
+        with level lines, extreme heights of arrays scaled as in files; a list of these, or a mapping that names them.
+    parts : {"triangles", "exact"}, optional
+        How parts of CAD systems among it are drawn, as in `vp.read`.
+
+    Returns
+    -------
+    Scene
+        Camera, page, background and title are the first that any has.
+
+    Raises
+    ------
+    TypeError
+        For anything else.
+    InputError
+        As in `vp.read`; for meshes that make no sense, and for a drawing.
+
+    Warns
+    -----
+    InputWarning
+        What was repaired of other meshes and of arrays; how heights were scaled.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot import geometry, io
+    >>> io.scene_of({"box": geometry.box((1, 1, 1)), "other": geometry.box((2, 1, 1))})
+    <Scene '': 2 items, 0 lights>
     """
-    return _scene_of(shown, ())
+    return _scene_of(shown, (), parts)
 
 
-def _scene_of(shown: Any, around: tuple[object, ...]) -> Scene:
+def _scene_of(shown: Any, around: tuple[object, ...], parts: str | None) -> Scene:
     """The same, of a part of what is around it."""
     if any(shown is one for one in around):
         raise TypeError(f"a {type(shown).__name__} that holds itself has no end")
     if isinstance(shown, Scene):
         return shown
     if isinstance(shown, str | os.PathLike):
-        return _read(shown)
+        return _read(shown, parts)
     from vectorplot.surfaces.terrains import Terrain
 
     if isinstance(shown, Terrain):
@@ -66,20 +94,20 @@ def _scene_of(shown: Any, around: tuple[object, ...]) -> Scene:
         return scene_of_array(shown)
     # Only where a shape of OpenCASCADE can be, it is looked for.
     if sys.modules.get("OCP") is not None:
-        from vectorplot.io.cad_files import cad_object_scene
+        from vectorplot.io.cad_files import PARTS, cad_object_scene
 
-        if (parts := cad_object_scene(shown)) is not None:
-            return parts
+        if (found := cad_object_scene(shown, PARTS[0] if parts is None else parts)) is not None:
+            return found
     item = _item(shown)
     if item is not None:
         return Scene((item,))
     if isinstance(shown, Mapping):
-        return together([_named(str(name), _scene_of(one, (*around, shown))) for name, one in shown.items()])
+        return together([_named(str(name), _scene_of(one, (*around, shown), parts)) for name, one in shown.items()])
     dump = getattr(shown, "dump", None)
     if callable(dump) and hasattr(shown, "geometry"):
-        return together([scene_of(one) for one in dump()])
+        return together([scene_of(one, parts=parts) for one in dump()])
     if isinstance(shown, Iterable) and not isinstance(shown, np.ndarray | bytes):
-        return together([_scene_of(one, (*around, shown)) for one in shown])
+        return together([_scene_of(one, (*around, shown), parts) for one in shown])
     _refuse(shown)
 
 
@@ -99,10 +127,10 @@ def _refuse(shown: object) -> NoReturn:
     raise TypeError(f"expected {TAKEN}, not {type(shown).__name__}{shape}{CURVE_HINT if points else ''}")
 
 
-def _read(path: str | os.PathLike[str]) -> Scene:
+def _read(path: str | os.PathLike[str], parts: str | None) -> Scene:
     if Path(path).suffix.lower() == ".json":
         raise InputError("a drawing that was saved: it has no shapes to draw again", file=os.fspath(path))
-    return read(path)
+    return read(path, parts=parts)
 
 
 def _item(shown: Any) -> Item | None:

@@ -4,13 +4,12 @@ fine triangles of their faces; which edges are sharp, tangent or seams, the norm
 from __future__ import annotations
 
 import warnings
-from collections import Counter, defaultdict
+from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from enum import IntEnum
 from functools import partial
-from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -24,8 +23,10 @@ from vectorplot.geometry.budget import may_stop
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.vectors import cross, dot, norm
 from vectorplot.geometry.weld import distinct_points
+from vectorplot.io.cad_faces import TANGENT_COSINE, NotMapped, body_faces, mean_curvatures
 from vectorplot.io.material_library import looks_of_colours
 from vectorplot.io.mesh_file import shown
+from vectorplot.io.opencascade import Numbers, explored, occ
 from vectorplot.io.read_mesh import with_looks
 from vectorplot.scene.extent import check_range
 from vectorplot.scene.face_looks import FaceLooks
@@ -34,6 +35,7 @@ from vectorplot.scene.material import Material
 from vectorplot.scene.page import SheetSettings
 from vectorplot.scene.scene import Scene, together
 from vectorplot.scene.surface_lines import SurfaceLines
+from vectorplot.surfaces.brep import Brep
 from vectorplot.tolerances import (
     LEAST_DIVISOR,
     LEAST_PART_TOLERANCE,
@@ -41,16 +43,13 @@ from vectorplot.tolerances import (
     SEWN_OF_EXTENT,
     USUAL_PART_TOLERANCE,
 )
-from vectorplot.words import DRAWN, LineKind
+from vectorplot.words import DRAWN, LineKind, unknown
 
 INSIDE_FACES = 4.0
 """Triangles may be so many times as far off their faces: contours lie on cubics, not on these."""
 
 WIDEST_TURN = 0.2
 """Neighbouring triangles of one face turn by no more than about this angle, in radians: 32 sides make a circle."""
-
-TANGENT_COSINE = float(np.cos(np.radians(1.0)))
-"""Faces that meet at a smaller angle everywhere along an edge are tangent to each other there."""
 
 BENT_ALIKE = 0.01
 """Mean curvatures that differ by no more than this part of the larger one, or of that of a ball as large as the body,
@@ -254,33 +253,34 @@ _NO_NAMES = ("=>[", "Open CASCADE STEP translator")
 _KINDS_ALONE = ("COMPOUND", "COMPSOLID", "SOLID", "SHELL", "FACE", "ASSEMBLY")
 
 
-def _occ(module: str) -> Any:
-    return import_module(f"OCP.{module}")
+PARTS = ("triangles", "exact")
+"""How bodies of parts are drawn: from fine triangles, or from the surfaces of their faces."""
 
 
-def cad_scene(path: Path, tolerance: float = USUAL_PART_TOLERANCE) -> Scene:
+def cad_scene(path: Path, tolerance: float = USUAL_PART_TOLERANCE, parts: str = PARTS[0]) -> Scene:
     """The bodies in a STEP, IGES or BREP file, in millimetres, each an item with the names and colours of the file;
     those of one part, or of one assembly in the whole, are a group. tolerance: how far chords of edges may be off, as
-    part of the diagonal of all that is read; no less than LEAST_PART_TOLERANCE counts.
+    part of the diagonal of all that is read; no less than LEAST_PART_TOLERANCE counts. parts: one of PARTS.
 
     Errors: InputError where OpenCASCADE is not installed, for a file that it cannot read or that holds no faces, and
-    for a tolerance that is not positive.
+    for a tolerance that is not positive. Warns InputWarning: which bodies are drawn from triangles although others are
+    not, and why.
     """
     if not 0.0 < tolerance < np.inf:
         raise InputError(f"a tolerance of {tolerance:g}: expected a positive part of the extent")
     name = shown(path)
     try:
-        _occ("TopoDS")
+        occ("TopoDS")
     except ImportError:
         raise not_installed(f"{name}: a file of a CAD system", BINDING, "step") from None
     suffix = path.suffix.lower()
     try:
         with _quietly(), _errors_told("read"):
             if suffix in _SHAPE_SUFFIXES:
-                parts = [_Part(_read_shape(path), _nowhere(), path.stem)]
+                found = [_Part(_read_shape(path), _nowhere(), path.stem)]
             else:
-                parts = _read_document(path, suffix in _IGES_SUFFIXES)
-            return _scene(parts, max(tolerance, LEAST_PART_TOLERANCE))
+                found = _read_document(path, suffix in _IGES_SUFFIXES)
+            return _scene(found, max(tolerance, LEAST_PART_TOLERANCE), parts)
     except InputError as error:
         raise (error if error.file else InputError(error.cause, file=name)) from None
 
@@ -298,28 +298,10 @@ def _errors_told(what: str) -> Iterator[None]:
         raise InputError(f"OpenCASCADE cannot {what} it: {type(error).__name__} {error}") from None
 
 
-class _Numbers:
-    """Numbers of shapes of OpenCASCADE, from 0 as they come: the same for what is the same shape in the same place,
-    whichever way round it is."""
-
-    def __init__(self) -> None:
-        self._known = defaultdict[int, list[tuple[Any, int]]](list)
-        self._count = 0
-
-    def of(self, shape: Any) -> int:
-        """The number of a shape, a new one for a new shape."""
-        alike = self._known[hash(shape)]
-        found = next((number for one, number in alike if one.IsSame(shape)), None)
-        if found is None:
-            found, self._count = self._count, self._count + 1
-            alike.append((shape, found))
-        return found
-
-
 @contextmanager
 def _quietly() -> Iterator[None]:
     """Nothing of what OpenCASCADE says about its work goes to standard output, where a picture may go."""
-    messenger = _occ("Message").Message.DefaultMessenger_s()
+    messenger = occ("Message").Message.DefaultMessenger_s()
     printers = _listed(messenger.Printers())
     for printer in printers:
         messenger.RemovePrinter(printer)
@@ -357,21 +339,21 @@ def _read_shape(path: Path) -> Any:
     with path.open("rb") as file:
         if not file.read(_BEGINNING).lstrip().startswith(_BREP_BEGINS):
             raise InputError("not a BREP file: it does not begin as one")
-    shape = _occ("TopoDS").TopoDS_Shape()
-    if not _occ("BRepTools").BRepTools.Read_s(shape, str(path), _occ("BRep").BRep_Builder()) or shape.IsNull():
+    shape = occ("TopoDS").TopoDS_Shape()
+    if not occ("BRepTools").BRepTools.Read_s(shape, str(path), occ("BRep").BRep_Builder()) or shape.IsNull():
         raise InputError("not a BREP file that OpenCASCADE can read")
     return shape
 
 
 def _read_document(path: Path, iges: bool) -> list[_Part]:
     """The parts in a STEP or IGES file."""
-    document = _occ("TDocStd").TDocStd_Document(_occ("TCollection").TCollection_ExtendedString("vectorplot"))
+    document = occ("TDocStd").TDocStd_Document(occ("TCollection").TCollection_ExtendedString("vectorplot"))
     if iges:
-        reader = _occ("IGESCAFControl").IGESCAFControl_Reader()
+        reader = occ("IGESCAFControl").IGESCAFControl_Reader()
     else:
-        reader = _occ("STEPCAFControl").STEPCAFControl_Reader()
+        reader = occ("STEPCAFControl").STEPCAFControl_Reader()
     kind = "an IGES" if iges else "a STEP"
-    if reader.ReadFile(str(path)) != _occ("IFSelect").IFSelect_ReturnStatus.IFSelect_RetDone:
+    if reader.ReadFile(str(path)) != occ("IFSelect").IFSelect_ReturnStatus.IFSelect_RetDone:
         raise InputError(f"not {kind} file that OpenCASCADE can read: it is damaged, or something else")
     if not reader.Transfer(document):
         raise InputError("it holds no shapes that OpenCASCADE can make")
@@ -381,16 +363,16 @@ def _read_document(path: Path, iges: bool) -> list[_Part]:
 def _labels(fill: Callable[[Any], object]) -> list[Any]:
     """The labels that a function fills a sequence with."""
     try:
-        labels = _occ("TDF").TDF_LabelSequence()
+        labels = occ("TDF").TDF_LabelSequence()
     except AttributeError:
-        labels = _occ("collections").Sequence_TDF_Label()
+        labels = occ("collections").Sequence_TDF_Label()
     fill(labels)
     return _listed(labels)
 
 
 def _parts_of_document(document: Any, stem: str) -> list[_Part]:
     """The parts of a document in the order of its assemblies, each time that they are used."""
-    xcaf = _occ("XCAFDoc")
+    xcaf = occ("XCAFDoc")
     tools, shapes = xcaf.XCAFDoc_DocumentTool, xcaf.XCAFDoc_ShapeTool
     tool, colours = tools.ShapeTool_s(document.Main()), tools.ColorTool_s(document.Main())
     found, taken = list[_Part](), Counter[str]()
@@ -403,7 +385,7 @@ def _parts_of_document(document: Any, stem: str) -> list[_Part]:
         own, product = _colour_of(colours, label), label
         if shapes.IsReference_s(label):
             location = location.Multiplied(shapes.GetLocation_s(label))
-            product = _occ("TDF").TDF_Label()
+            product = occ("TDF").TDF_Label()
             shapes.GetReferredShape_s(label, product)
         colour = next((one for one in (own, _colour_of(colours, product), colour) if one is not None), None)
         name = _name_of(product) or _name_of(label) or stem
@@ -420,7 +402,7 @@ def _parts_of_document(document: Any, stem: str) -> list[_Part]:
 
 def _nowhere() -> Any:
     """The location of what stays where it is."""
-    return _occ("TopLoc").TopLoc_Location()
+    return occ("TopLoc").TopLoc_Location()
 
 
 def _told_apart(name: str, taken: Counter[str]) -> str:
@@ -431,7 +413,7 @@ def _told_apart(name: str, taken: Counter[str]) -> str:
 
 def _name_of(label: Any) -> str:
     """What a label is called; nothing for names that only number it."""
-    names = _occ("TDataStd").TDataStd_Name
+    names = occ("TDataStd").TDataStd_Name
     # The binding does not survive asking for an attribute that is not there.
     if not label.IsAttribute(names.GetID_s()):
         return ""
@@ -443,7 +425,7 @@ def _name_of(label: Any) -> str:
 
 def _material_of(label: Any) -> str:
     """The name of the material of a label; nothing where it has none."""
-    xcaf, nodes = _occ("XCAFDoc"), _occ("TDataStd").TDataStd_TreeNode
+    xcaf, nodes = occ("XCAFDoc"), occ("TDataStd").TDataStd_TreeNode
     material, guid = xcaf.XCAFDoc_Material, xcaf.XCAFDoc.MaterialRefGUID_s()
     if not label.IsAttribute(guid):
         return ""
@@ -457,15 +439,15 @@ def _material_of(label: Any) -> str:
 
 def _looks_within(colours: Any, label: Any) -> Callable[[Any], _Look]:
     """What solids and faces of a part are called, and their colours."""
-    shapes = _occ("XCAFDoc").XCAFDoc_ShapeTool
-    inside, numbers = _labels(partial(shapes.GetSubShapes_s, label)), _Numbers()
+    shapes = occ("XCAFDoc").XCAFDoc_ShapeTool
+    inside, numbers = _labels(partial(shapes.GetSubShapes_s, label)), Numbers()
     looks = {numbers.of(shapes.GetShape_s(one)): (_name_of(one), _colour_of(colours, one)) for one in inside}
     return lambda shape: looks.get(numbers.of(shape), ("", None)) if looks else ("", None)
 
 
 def _colour_of(colours: Any, label: Any) -> Floats | None:
     """(4,) red, green, blue and opacity of a label; None where it has none."""
-    kinds, rgba = _occ("XCAFDoc").XCAFDoc_ColorType, _occ("Quantity").Quantity_ColorRGBA()
+    kinds, rgba = occ("XCAFDoc").XCAFDoc_ColorType, occ("Quantity").Quantity_ColorRGBA()
     for kind in (kinds.XCAFDoc_ColorSurf, kinds.XCAFDoc_ColorGen):
         if colours.GetColor_s(label, kind, rgba):
             return _shares(rgba)
@@ -473,27 +455,29 @@ def _colour_of(colours: Any, label: Any) -> Floats | None:
 
 
 def _shares(rgba: Any) -> Floats:
-    srgb = rgba.GetRGB().Values(_occ("Quantity").Quantity_TypeOfColor.Quantity_TOC_sRGB)
+    srgb = rgba.GetRGB().Values(occ("Quantity").Quantity_TypeOfColor.Quantity_TOC_sRGB)
     return np.array([*srgb, rgba.Alpha()])
 
 
 # Objects of libraries that OpenCASCADE is below of: build123d, CadQuery.
 
 
-def cad_object_scene(shown: Any) -> Scene | None:
+def cad_object_scene(shown: Any, parts: str = PARTS[0]) -> Scene | None:
     """The scene of a shape of OpenCASCADE, or of an object of build123d or CadQuery, known by what it has: a shape that
     is wrapped, the values of a workplane, the shapes of an assembly, the part of a builder. None for anything else; the
     object stays as it was.
 
+    parts: one of PARTS.
+
     Errors: InputError for one without faces, and for one that OpenCASCADE cannot divide into triangles.
     """
     name = type(shown).__name__
-    parts = _parts_of_object(shown, name.lower())
-    if not parts:
+    found = _parts_of_object(shown, name.lower())
+    if not found:
         return None
     try:
         with _quietly(), _errors_told("divide"):
-            return _scene(parts, USUAL_PART_TOLERANCE)
+            return _scene(found, USUAL_PART_TOLERANCE, parts)
     except InputError as error:
         raise InputError(f"{name}: {error.cause}") from None
 
@@ -533,21 +517,24 @@ def _parts_of_object(shown: Any, name: str) -> list[_Part]:
 
 def _wrapped(shown: Any) -> Any:
     """The shape of OpenCASCADE that something is or wraps; None for what is none."""
-    kind = _occ("TopoDS").TopoDS_Shape
+    kind = occ("TopoDS").TopoDS_Shape
     return next((one for one in (shown, getattr(shown, "wrapped", None)) if isinstance(one, kind)), None)
 
 
 def _copied(shape: Any) -> Any:
     """A shape that can be divided into triangles without a change of the given one."""
-    return _occ("BRepBuilderAPI").BRepBuilderAPI_Copy(shape, False, False).Shape()
+    return occ("BRepBuilderAPI").BRepBuilderAPI_Copy(shape, False, False).Shape()
 
 
 # Parts -> bodies -> items.
 
 
-def _scene(parts: Sequence[_Part], tolerance: float) -> Scene:
-    """The items of parts, those that are used several times triangulated once."""
-    shapes, boxes, made = _Numbers(), dict[int, Floats](), dict[tuple[int, bytes], list[Item]]()
+def _scene(parts: Sequence[_Part], tolerance: float, drawn: str) -> Scene:
+    """The items of parts, those that are used several times triangulated once; drawn: one of PARTS."""
+    if drawn not in PARTS:
+        raise unknown("way of drawing parts", drawn, PARTS)
+    unmapped = dict[str, str]()
+    shapes, boxes, made = Numbers(), dict[int, Floats](), dict[tuple[int, bytes], list[Item]]()
     numbers = [shapes.of(part.shape) for part in parts]
     for number, part in zip(numbers, parts, strict=True):
         boxes.setdefault(number, _corners(part.shape))
@@ -563,7 +550,7 @@ def _scene(parts: Sequence[_Part], tolerance: float) -> Scene:
         may_stop()
         key = number, b"" if part.colour is None else part.colour.tobytes()
         if key not in made:
-            made[key] = _items_of_part(part, tolerance * extent, extent)
+            made[key] = _items_of_part(part, tolerance * extent, extent, unmapped if drawn == "exact" else None)
         several = len(made[key]) > 1 and not part.group
         group = _told_apart(part.name, taken) if several else part.group
         own = [replace(item, group=group) for item in made[key]]
@@ -573,6 +560,9 @@ def _scene(parts: Sequence[_Part], tolerance: float) -> Scene:
             raise InputError(f"its parts take more than {MOST_TRIANGLES} triangles: allow a coarser tolerance")
     if not items:
         raise InputError("it holds no faces")
+    if unmapped:
+        told = "; ".join(f"{name}: {why}" for name, why in unmapped.items())
+        warnings.warn(f"drawn from triangles, not exactly: {told}", InputWarning, stacklevel=4)
     scene = together([Scene((item,)) for item in items])
     made_of = _materials(parts)
     return replace(scene, sheet=SheetSettings(made_of=made_of)) if made_of else scene
@@ -589,10 +579,10 @@ def _materials(parts: Sequence[_Part]) -> tuple[tuple[str, str], ...]:
 
 def _corners(shape: Any) -> Floats:
     """(8,3) the corners of the box around the faces of a shape; (0,3) where it has none."""
-    if not any(True for _ in _explored(shape, "FACE")):
+    if not any(True for _ in explored(shape, "FACE")):
         return np.zeros((0, 3))
-    box = _occ("Bnd").Bnd_Box()
-    _occ("BRepBndLib").BRepBndLib.Add_s(shape, box, False)
+    box = occ("Bnd").Bnd_Box()
+    occ("BRepBndLib").BRepBndLib.Add_s(shape, box, False)
     low, high = (np.array(corner.Coord()) for corner in (box.CornerMin(), box.CornerMax()))
     return np.where(np.array(list(np.ndindex(2, 2, 2))) == 1, high, low)
 
@@ -608,30 +598,17 @@ def _moved(points: Floats, matrix: Floats) -> Floats:
     return matmul(points, matrix[:3, :3].T) + matrix[:3, 3]
 
 
-def _explored(shape: Any, kind: str, outside: str = "SHAPE") -> Iterator[Any]:
-    """The parts of a shape of a kind, such as FACE, that are in none of another kind."""
-    kinds, topods = _occ("TopAbs").TopAbs_ShapeEnum, _occ("TopoDS").TopoDS
-    name = kind.capitalize()
-    cast = getattr(topods, f"{name}_s", None) or getattr(topods, name)
-    explorer = _occ("TopExp").TopExp_Explorer(
-        shape, getattr(kinds, f"TopAbs_{kind}"), getattr(kinds, f"TopAbs_{outside}")
-    )
-    while explorer.More():
-        yield cast(explorer.Current())
-        explorer.Next()
-
-
-def _items_of_part(part: _Part, distance: float, extent: float) -> list[Item]:
+def _items_of_part(part: _Part, distance: float, extent: float, unmapped: dict[str, str] | None) -> list[Item]:
     """The items of a part where it stands alone; distance: how far chords of edges may be off; extent: of all that is
-    read."""
-    solids = list(_explored(part.shape, "SOLID"))
-    free = list(_explored(part.shape, "FACE", outside="SOLID"))
+    read; unmapped: takes which of them have no surfaces, by name, and why; None where none are asked for."""
+    solids = list(explored(part.shape, "SOLID"))
+    free = list(explored(part.shape, "FACE", outside="SOLID"))
     sewn, open_ = _sewn(free, SEWN_OF_EXTENT * extent) if free else ([], [])
     items = list[Item]()
     for shape, closes in [*((one, True) for one in (*solids, *sewn)), *((one, False) for one in open_)]:
         called, own = part.within(shape)
         name, colour = called or part.name, part.colour if own is None else own
-        ways = _occ("IMeshTools").IMeshTools_MeshAlgoType
+        ways = occ("IMeshTools").IMeshTools_MeshAlgoType
         found = list[tuple[int, bool, list[Item]]]()
         # The first way takes a tenth of the time on plates with hundreds of bores, and fails on some faces.
         for way in (ways.IMeshTools_MeshAlgoType_Delabella, ways.IMeshTools_MeshAlgoType_Watson):
@@ -648,34 +625,59 @@ def _items_of_part(part: _Part, distance: float, extent: float) -> list[Item]:
         if left:
             text = f"{name}: {left} faces could not be divided into triangles: they are left out"
             warnings.warn(text, InputWarning, stacklevel=2)
-        items += made
+        items += made if unmapped is None else [_with_surfaces(item, shape, unmapped) for item in made]
     return items
+
+
+def _with_surfaces(item: Item, shape: Any, unmapped: dict[str, str]) -> Item:
+    """The item with the surfaces of the faces of its shape; else unmapped is told why it has none."""
+    try:
+        with _errors_told("tell the surfaces of"):
+            found = body_faces(shape)
+    except (NotMapped, InputError) as error:
+        unmapped[item.name] = str(error)
+        return item
+    edges, none = found.edges, np.zeros((0, 3), dtype=np.intp)
+    body = CadBody(
+        edges.points,
+        found.normals,
+        found.bending,
+        none,
+        none[:, 0],
+        np.array([face.flat for face in found.faces]),
+        np.zeros((len(found.faces), 4)),
+        np.arange(len(edges.points)),
+        edges.offsets,
+        edges.edge,
+        edges.face,
+    )
+    return replace(item, exact=Brep(found.faces, replace(edges, kind=edge_kinds(body)), item.mesh))
 
 
 def _divide(shape: Any, distance: float, way: Any) -> None:
     """Divides the faces of a shape into triangles in one of the ways that OpenCASCADE has."""
-    _occ("BRepTools").BRepTools.Clean_s(shape)
-    fineness = _occ("IMeshTools").IMeshTools_Parameters()
+    occ("BRepTools").BRepTools.Clean_s(shape)
+    fineness = occ("IMeshTools").IMeshTools_Parameters()
     fineness.Deflection, fineness.DeflectionInterior = distance, INSIDE_FACES * distance
     fineness.Angle = fineness.AngleInterior = WIDEST_TURN
     fineness.MeshAlgo = way
-    _occ("BRepMesh").BRepMesh_IncrementalMesh(shape, fineness)
+    occ("BRepMesh").BRepMesh_IncrementalMesh(shape, fineness)
 
 
 def _sewn(faces: Sequence[Any], near: float) -> tuple[list[Any], list[Any]]:
     """Solids, and open shapes, that faces of no solid make, which are joined along edges that are near each other."""
-    sewing = _occ("BRepBuilderAPI").BRepBuilderAPI_Sewing(near)
+    sewing = occ("BRepBuilderAPI").BRepBuilderAPI_Sewing(near)
     for face in faces:
         sewing.Add(face)
     sewing.Perform()
     whole = sewing.SewedShape()
-    shells = list(_explored(whole, "SHELL"))
-    closed = [shell for shell in shells if _occ("BRep").BRep_Tool.IsClosed_s(shell)]
-    made = [_occ("ShapeFix").ShapeFix_Solid().SolidFromShell(shell) for shell in closed]
+    shells = list(explored(whole, "SHELL"))
+    closed = [shell for shell in shells if occ("BRep").BRep_Tool.IsClosed_s(shell)]
+    made = [occ("ShapeFix").ShapeFix_Solid().SolidFromShell(shell) for shell in closed]
     rest = [shell for shell in shells if shell not in closed]
-    alone = list(_explored(whole, "FACE", outside="SHELL"))
+    alone = list(explored(whole, "FACE", outside="SHELL"))
     if alone:
-        builder, compound = _occ("BRep").BRep_Builder(), _occ("TopoDS").TopoDS_Compound()
+        builder, compound = occ("BRep").BRep_Builder(), occ("TopoDS").TopoDS_Compound()
         builder.MakeCompound(compound)
         for face in alone:
             builder.Add(compound, face)
@@ -686,19 +688,19 @@ def _sewn(faces: Sequence[Any], near: float) -> tuple[list[Any], list[Any]]:
 def _body(shape: Any, colour: Floats | None, within: Callable[[Any], _Look]) -> tuple[CadBody, int]:
     """What the triangulated faces of a shape are, and how many of them have no triangles. colour: of faces that have
     none of their own."""
-    edges, missing, start = _Numbers(), 0, 0
+    edges, missing, start = Numbers(), 0, 0
     points, normals, triangles = [np.zeros((0, 3))], [np.zeros((0, 3))], [np.zeros((0, 3), dtype=np.intp)]
     bending, flat, shares, counts = [np.zeros(0)], list[bool](), list[Floats](), list[int]()
     nodes, sizes, edge, user = [np.zeros(0, dtype=np.intp)], list[int](), list[int](), list[int]()
-    tool = _occ("BRep").BRep_Tool
-    for face in _explored(shape, "FACE"):
+    tool = occ("BRep").BRep_Tool
+    for face in explored(shape, "FACE"):
         may_stop()
-        location = _occ("TopLoc").TopLoc_Location()
+        location = occ("TopLoc").TopLoc_Location()
         triangulation = tool.Triangulation_s(face, location)
         if triangulation is None or not triangulation.NbTriangles():
             missing += 1
             continue
-        number, turned = len(flat), face.Orientation() == _occ("TopAbs").TopAbs_Orientation.TopAbs_REVERSED
+        number, turned = len(flat), face.Orientation() == occ("TopAbs").TopAbs_Orientation.TopAbs_REVERSED
         matrix = _matrix(location)
         own = _moved(np.array([node.Coord() for node in triangulation.MapNodeArray()]), matrix)
         corners = np.array([one.Get() for one in triangulation.MapTriangleArray()], dtype=np.intp) - 1
@@ -712,7 +714,7 @@ def _body(shape: Any, colour: Floats | None, within: Callable[[Any], _Look]) -> 
         given = within(face)[1]
         given = colour if given is None else given
         shares.append(np.full(4, np.nan) if given is None else given)
-        for one in _explored(face, "EDGE"):
+        for one in explored(face, "EDGE"):
             along = None if tool.Degenerated_s(one) else tool.PolygonOnTriangulation_s(one, triangulation, location)
             if along is not None:
                 nodes.append(start - 1 + np.array(list(along.Nodes()), dtype=np.intp))
@@ -739,7 +741,7 @@ def _body(shape: Any, colour: Floats | None, within: Callable[[Any], _Look]) -> 
 def _surface(face: Any, triangulation: Any) -> tuple[bool, Floats, Floats]:
     """Whether a face is flat, and at the points (n,) of its triangles the unit normals (n,3), to the left of v and
     before u, and the mean curvatures of its surface."""
-    gp, adaptor = _occ("gp"), _occ("BRepAdaptor").BRepAdaptor_Surface(face, False)
+    gp, adaptor = occ("gp"), occ("BRepAdaptor").BRepAdaptor_Surface(face, False)
     is_flat = str(adaptor.GetType()).endswith("_Plane")
     places = [place.Coord() for place in triangulation.MapUVNodeArray()]
     point, derivatives = gp.gp_Pnt(), [gp.gp_Vec() for _ in ("u", "v", "uu", "vv", "uv")]
@@ -754,7 +756,5 @@ def _surface(face: Any, triangulation: Any) -> tuple[bool, Floats, Floats]:
     # Where parameter lines meet in a point, or run along each other, there is no normal.
     none = norm(normals) <= NO_CAD_NORMAL * sizes.max(axis=0, initial=0.0).prod()
     normals = np.where(none[:, None], 0.0, normals / np.where(none, 1.0, norm(normals))[:, None])
-    e, f, g = dot(along_u, along_u), dot(along_u, along_v), dot(along_v, along_v)
-    second_u, second_v, mixed = (dot(found[:, k], normals) for k in (2, 3, 4))
-    area = np.where(none, np.nan, 2.0 * (e * g - f * f))
-    return is_flat, normals, (e * second_v - 2.0 * f * mixed + g * second_u) / area
+    bent = mean_curvatures((along_u, along_v), (found[:, 2], found[:, 4], found[:, 3]), normals)
+    return is_flat, normals, np.where(none, np.nan, bent)

@@ -99,18 +99,21 @@ def read(
     exaggeration: float | None = None,
     tolerance: float | None = None,
     molecules: str | None = None,
+    parts: str | None = None,
 ) -> Scene:
     """The scene in a file: a mesh (one of MESH_SUFFIXES), parts of a CAD system (see cad_files.cad_scene), a molecule
     (xyz, pdb, cif), a terrain (asc, xyz), or the scene language (any other suffix). exaggeration: factor of a terrain's
     heights; where None, extreme heights are scaled by 1, 2 or 5 times a power of ten, with an InputWarning. tolerance:
-    of parts. molecules: see molecule_scene. A mesh file gives one item, or one for each object or node. Meshes are
-    repaired (see mesh_repair.repaired), reported in one InputWarning a file. The file is found as named_files.data_file
-    has it.
+    of parts. molecules: see molecule_scene. parts: "triangles" or "exact", see cad_files.cad_scene. A mesh file gives
+    one item, or one for each object or node. Meshes are repaired (see mesh_repair.repaired), reported in one
+    InputWarning a file. The file is found as named_files.data_file has it.
     Errors: InputError, one line with file, line and cause; a file of another kind is named as such.
     """
     path = Path(data_file_or_name(os.fspath(path)))
     check_file(path)
     is_molecule = path.suffix.lower() in MOLECULE_SUFFIXES and not _is_terrain(path)
+    if parts is not None and path.suffix.lower() not in CAD_SUFFIXES:
+        raise InputError(f"a way of drawing parts is for CAD parts only ({', '.join(CAD_SUFFIXES)})", file=shown(path))
     if molecules is not None and not is_molecule:
         raise InputError("a style of molecules is for molecules only (xyz, pdb, cif)", file=shown(path))
     if _is_terrain(path):
@@ -129,7 +132,8 @@ def read(
         from vectorplot.io.cad_files import cad_scene
         from vectorplot.tolerances import USUAL_PART_TOLERANCE
 
-        return cad_scene(path, USUAL_PART_TOLERANCE if tolerance is None else tolerance)
+        fine = USUAL_PART_TOLERANCE if tolerance is None else tolerance
+        return cad_scene(path, fine) if parts is None else cad_scene(path, fine, parts)
     _check_text(path)
     return _scene_text(path)
 
@@ -179,6 +183,7 @@ def read_named(
     exaggeration: float | None = None,
     tolerance: float | None = None,
     molecules: str | None = None,
+    parts: str | None = None,
 ) -> Scene:
     """The scene in the file of a name, as io.read_file.read has it; of the
     name ``-`` the one in the scene language on standard input, in which names of files are relative to the folder that
@@ -187,13 +192,15 @@ def read_named(
     Errors: InputError as in read; for a text that is empty, larger than 64 MiB, not UTF-8 or something else.
     """
     if name != STANDARD_INPUT:
-        return read(name, exaggeration=exaggeration, tolerance=tolerance, molecules=molecules)
+        return read(name, exaggeration=exaggeration, tolerance=tolerance, molecules=molecules, parts=parts)
     from vectorplot.io.scene_language import MAX_FILE_BYTES, parse_scene
 
     if exaggeration is not None:
         raise InputError("heights are exaggerated of terrains only (asc, xyz)", file=_NAME)
     if molecules is not None:
         raise InputError("a style of molecules is for molecules only (xyz, pdb, cif)", file=_NAME)
+    if parts is not None:
+        raise InputError(f"a way of drawing parts is for CAD parts only ({', '.join(CAD_SUFFIXES)})", file=_NAME)
     if sys.stdin is None:
         raise InputError("it is closed", file=_NAME)
     data = sys.stdin.buffer.read(MAX_FILE_BYTES + 1)

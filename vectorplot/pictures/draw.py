@@ -270,6 +270,10 @@ def draw(
     paper = Paper(sheet, fit, pen_scale(sheet) if scale_pens else 1.0)
     prepared = prepared_scene(given, camera, paper, explain, progress, depth_cue=depth_cue)
     seen, bar = prepared.scene, prepared.bar
+    if any(item.exact is not None for item in seen.items):
+        from vectorplot.scene.exact_bodies import exact_bodies
+
+        seen = exact_bodies(seen, kinds, hatch)
     legend = Legend(sheet, bar, seen.scale_bar, text)
     sheet = legend.room
     rules = (*chosen.rules, *own, *asked)

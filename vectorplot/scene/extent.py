@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -14,6 +15,9 @@ from vectorplot.surfaces.capped_bodies import ball_of, bounds_of_balls, bounds_o
 from vectorplot.surfaces.stacked import StackedSurfaces
 from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_implicit, is_parametrised
 from vectorplot.tolerances import LARGEST
+
+if TYPE_CHECKING:
+    from vectorplot.surfaces.brep import Brep
 
 GRID = 64
 """Cells of the grid over the domain, in each direction, on which a surface is looked at first."""
@@ -49,7 +53,7 @@ def check_range(bounds: Floats) -> None:
         raise InputError(f"coordinates up to {largest:g} and an extent of {extent:g} are out of range")
 
 
-def smooth_bounds(shape: Surface | ImplicitSurface | Curve) -> Floats:
+def smooth_bounds(shape: Surface | ImplicitSurface | Curve | Brep) -> Floats:
     """(2,3) smallest and largest coordinates of a smooth surface or curve; of an implicit surface those of its box.
     Exact for balls, frusta and parts of balls, otherwise within a thousandth of the extent where bumps are wider
     than a GRIDth of the domain.
@@ -75,6 +79,10 @@ def smooth_bounds(shape: Surface | ImplicitSurface | Curve) -> Floats:
         return box
     if is_curve(shape):
         return _curve_bounds(shape)
+    # A body that is known by its faces says itself how far it reaches.
+    if (bounds := getattr(shape, "bounds", None)) is not None:
+        check_range(bounds)
+        return np.asarray(bounds)
     raise InputError(f"a {type(shape).__name__} is no mesh, no surface and no curve")
 
 

@@ -27,6 +27,7 @@ from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_parametrise
 from vectorplot.words import OWN_LINE_WORDS, check_colour, line_words
 
 if TYPE_CHECKING:
+    from vectorplot.surfaces.brep import Brep
     from vectorplot.surfaces.subdivision import LimitPlaces
 
 # The normals of the smooth surface that a mesh was made of.
@@ -141,8 +142,8 @@ class Item(Movable["Item"]):
     ----------
     name : str
         What messages and files call it.
-    shape : Mesh, Surface, ImplicitSurface or Curve
-        A polyhedron, a smooth surface or a curve in space.
+    shape : Mesh, Surface, ImplicitSurface, Curve or Brep
+        A polyhedron, a smooth surface, a curve in space, or a body known by its faces.
     colour : str
         The name of a palette, a plain colour or #rrggbb.
     material : Material
@@ -180,6 +181,8 @@ class Item(Movable["Item"]):
         part that it stands for meet there without a crease.
     face_looks : FaceLooks, optional
         Colours and materials of single faces (None: all have those of the item).
+    exact : Brep, optional
+        The body whose triangles the polyhedron is: the verb draw takes lines from its surfaces.
 
     Raises
     ------
@@ -196,7 +199,7 @@ class Item(Movable["Item"]):
     """
 
     name: str
-    shape: Mesh | Surface | ImplicitSurface | Curve
+    shape: Mesh | Surface | ImplicitSurface | Curve | Brep
     colour: str = "gray"
     material: Material = field(default_factory=Material)
     patterns: tuple[Pattern, ...] = ()
@@ -215,6 +218,7 @@ class Item(Movable["Item"]):
     added_edges: Floats | None = None
     tangent_edges: Floats | None = None
     face_looks: FaceLooks | None = None
+    exact: Brep | None = None
 
     def __post_init__(self) -> None:
         check_colour(self.colour, f"{self.name}: ")
@@ -266,6 +270,9 @@ class Item(Movable["Item"]):
         fields = None if self.fields is None else self.fields.transformed(m)
         normals = None if self.normals is None else self.normals.transformed(m)
         looks = None if self.face_looks is None else self.face_looks.transformed(m)
+        exact = None
+        if self.exact is not None and self.exact.mesh is self.shape and isinstance(shape, Mesh):
+            exact = self.exact.transformed(m, shape)
         listed = (self.drawn_edges, self.added_edges, self.tangent_edges)
         edges, added, tangent = (None if ends is None else matmul(ends, m[:3, :3].T) + m[:3, 3] for ends in listed)
         return replace(
@@ -280,6 +287,7 @@ class Item(Movable["Item"]):
             added_edges=added,
             tangent_edges=tangent,
             face_looks=looks,
+            exact=exact,
         )
 
     @property

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import chain
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -30,6 +30,9 @@ from vectorplot.scene.scales import BoxAxes, Colouring, ScaleBar
 from vectorplot.surfaces.capped_bodies import ball_of, bounds_of_balls, bounds_of_capped_quadrics, capped_quadric_of
 from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_implicit, is_parametrised
 from vectorplot.words import check_colour
+
+if TYPE_CHECKING:
+    from vectorplot.surfaces.brep import Brep
 
 # What stands in a picture: items, lights, and how one looks at them.
 
@@ -189,7 +192,7 @@ class Scene(Movable["Scene"]):
         return np.array([corners.min(axis=0), corners.max(axis=0)])
 
 
-def _bounds(named: Sequence[tuple[str, Surface | ImplicitSurface | Curve]]) -> Floats:
+def _bounds(named: Sequence[tuple[str, Surface | ImplicitSurface | Curve | Brep]]) -> Floats:
     """(n,2,3) the bounds of smooth shapes with their names; those of parametrised surfaces found together."""
     surfaces = [shape for _, shape in named if is_parametrised(shape)]
     alone = [(name, shape) for name, shape in named if not is_parametrised(shape)]
@@ -202,7 +205,7 @@ def _bounds(named: Sequence[tuple[str, Surface | ImplicitSurface | Curve]]) -> F
     return np.concatenate([*together, *(_bounds_of_one(name, shape)[None] for name, shape in alone)])
 
 
-def _bounds_of_one(name: str, shape: Surface | ImplicitSurface | Curve) -> Floats:
+def _bounds_of_one(name: str, shape: Surface | ImplicitSurface | Curve | Brep) -> Floats:
     try:
         return smooth_bounds(shape)
     except InputError as error:

@@ -7,7 +7,7 @@ import pytest
 from support.smooth_parts import ball_from_above, polylines
 
 from vectorplot.tolerances import SAFE_IN_IMAGE
-from vectorplot.visibility.smooth.hidden_curves import BEYOND, clearances
+from vectorplot.visibility.smooth.hidden_curves import BEYOND, clearances, clearances_before
 from vectorplot.words import LineKind
 
 TOLERANCE = 1e-5
@@ -40,3 +40,12 @@ def test_beside_its_own_border_a_point_has_others() -> None:
 def test_a_fold_on_which_a_point_lies_is_an_edge() -> None:
     assert clearance(edge(0.0, 0.0), kind=LineKind.CONTOUR) < TOLERANCE
     assert clearance(edge(0.4, 0.0), kind=LineKind.CONTOUR) == pytest.approx(0.4)
+
+
+def test_edges_behind_a_point_do_not_change_what_is_in_front_of_it() -> None:
+    for kind in (LineKind.BOUNDARY, LineKind.CONTOUR, LineKind.CREASE):
+        found = [
+            float(clearances_before(VIEW, polylines(edge(0.0, height), kind=kind), ORIGIN, TOLERANCE)[0])
+            for height in (0.1, -0.1)
+        ]
+        assert found[0] < TOLERANCE and found[1] == pytest.approx(BEYOND * SAFE_IN_IMAGE)

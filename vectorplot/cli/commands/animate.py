@@ -134,7 +134,18 @@ def animate(
 
 
 NOT_OF_FRAMES = {
-    *("certificate", "strict", "scene_file", "out", "format_", "exaggeration", "molecules", "panorama", "strips")
+    *(
+        "certificate",
+        "strict",
+        "scene_file",
+        "out",
+        "format_",
+        "exaggeration",
+        "molecules",
+        "parts",
+        "panorama",
+        "strips",
+    )
 }
 """Parameters of the verbs that frames have not."""
 

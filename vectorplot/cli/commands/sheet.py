@@ -20,6 +20,7 @@ from vectorplot.cli.options import (
     LANDSCAPE,
     MEASURE_OPTIONS,
     OUT,
+    PARTS,
     QUIET,
     SHORTEST,
     TEXT,
@@ -175,6 +176,7 @@ def _lying(page: str | None, standard: str | None, said: SheetSettings) -> str:
     HIDDEN_LINES,
     TEXT,
     crease_angle_option("Sharper edges are creases."),
+    PARTS,
     SHORTEST,
     EXPLAIN,
     QUIET,
@@ -200,7 +202,8 @@ def sheet(scene_file: tuple[str, ...], out: str, format_: str | None, quiet: boo
     told |= {name: dict(told[name]) or None for name in ("fields", "made_of")}
 
     apart, each_part = told.pop("explode"), told.pop("each_part")
-    sources = [Source((one,), upright=upright) for one in scene_file]
+    parts = told.pop("parts")
+    sources = [Source((one,), upright=upright, parts=parts) for one in scene_file]
     if each_part:
         if len(sources) > 1:
             raise click.UsageError("--each-part is of one INPUT")

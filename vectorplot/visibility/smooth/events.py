@@ -345,7 +345,8 @@ def _passed(
     way = sight_lines.sight(view, points)
     bend = sheets.bends(number, places, way)
     change = np.where(falls, -1, 1) * np.sign(bend).astype(np.intp)
-    change[dot(sheets.inwards(number, places), way) < 0.0] = 0
+    # What is met again on the border itself is met.
+    change[dot(sheets.inwards(number, places), way) < -EDGE_ON_SINE * norm(way)] = 0
     over = np.flatnonzero(edge)
     change[over] = _wings_passed(sheets, number[over], places[over], ahead[over], way[over])
     return Events(chord, part, sheets.item[number], change)

@@ -13,7 +13,7 @@ from vectorplot.geometry import ragged
 from vectorplot.geometry.budget import USUAL, Budget, unheard, unresolved
 from vectorplot.geometry.vectors import dot, norm
 from vectorplot.scene.view import View
-from vectorplot.tolerances import GRAZING_ANGLE, LEAST_DIVISOR, LEAST_PART, SAFE_IN_IMAGE
+from vectorplot.tolerances import GRAZING_ANGLE, LEAST_DIVISOR, LEAST_PART, SAFE_IN_IMAGE, TOUCHING_OF_EXTENT
 from vectorplot.visibility.polyhedra.lines import Lines
 from vectorplot.visibility.smooth import sight_lines
 from vectorplot.visibility.smooth.crossings import crossings
@@ -56,6 +56,23 @@ def clearances(view: View, edges: Curves, points: Floats, tolerance: float) -> F
         from_border[on] = reach
         np.minimum.at(from_border, which, _from_chords(view, edges, other, image[which]))
     return np.minimum(distance, from_border)
+
+
+def clearances_before(view: View, edges: Curves, points: Floats, tolerance: float) -> Floats:
+    """(k,) the same of points that are near edges, where those that are farther away than the points do not count: no
+    more than a little farther than what is safe. What is seen in front of a point they do not change."""
+    if not len(points):
+        return np.zeros(0)
+    image, clear = sight_lines.image(view, points), np.full(len(points), BEYOND * SAFE_IN_IMAGE)
+    which, chord = _chords_within(view, edges, edges.chords, image, BEYOND * SAFE_IN_IMAGE)
+    depth = sight_lines.depth(view, edges.points)
+    before = np.minimum(depth[chord], depth[chord + 1]) <= sight_lines.depth(view, points)[which] + TOUCHING_OF_EXTENT
+    which, chord = which[before], chord[before]
+    border = edges.kind[edges.owner[chord]] == LineKind.BOUNDARY
+    counts = ~(border & _lies_on(view, edges, chord, points[which], tolerance))
+    which, chord = which[counts], chord[counts]
+    np.minimum.at(clear, which, _from_chords(view, edges, chord, image[which]))
+    return clear
 
 
 def _distances(view: View, edges: Curves, chord: Ints, image: Floats) -> Floats:
@@ -102,9 +119,10 @@ def _chords_within(view: View, edges: Curves, chord: Ints, image: Floats, reach:
 
 def _from_chords(view: View, edges: Curves, chord: Ints, image: Floats) -> Floats:
     """(k,) distances of points (k,2) of the image from a chord each."""
-    import shapely
-
-    return np.asarray(shapely.distance(shapely.points(image), _lines(view, edges, chord)))
+    start, end = (sight_lines.image(view, edges.points[at]) for at in (chord, chord + 1))
+    way = end - start
+    part = np.clip(dot(image - start, way) / np.maximum(dot(way, way), LEAST_DIVISOR), 0.0, 1.0)
+    return norm(start + part[:, None] * way - image)
 
 
 def _lines(view: View, edges: Curves, chord: Ints) -> NDArray[np.object_]:
@@ -383,8 +401,10 @@ def _clear(
     points = _on_chords(curves, chord.ravel(), (at - chord).ravel())
     image = sight_lines.image(view, points)
     contour = np.tile(edge_on[pieces.curve], len(at))
-    clear = np.empty(at.size)
+    clear = np.full(at.size, np.inf)
     clear[~contour] = clearances(view, edges, points[~contour], tolerance)
+    near = np.flatnonzero(~contour & (clear <= SAFE_IN_IMAGE))
+    clear[near] = clearances_before(view, edges, points[near], tolerance)
     # A contour is an edge itself: what counts is the way to the ends of the piece.
     ends = [sight_lines.image(view, _on_chords(curves, c, p)) for c, p in _ends(pieces)]
     away = [np.linalg.norm(image - np.tile(e, (len(at), 1)), axis=1) for e in ends]
@@ -615,8 +635,10 @@ def hidden_curves(
     events = all_events([own, crossed, pierced])
     pieces = cut(curves, events)
 
+    once = _once(edges)
+
     def count(pieces: Pieces) -> Counts:
-        return counted(view, sheets, targets, curves, traced.stretches, edges, edge_on, pieces, tolerance, budget.pairs)
+        return counted(view, sheets, targets, curves, traced.stretches, once, edge_on, pieces, tolerance, budget.pairs)
 
     counts = count(pieces)
     done(0.8)
@@ -631,6 +653,16 @@ def hidden_curves(
     hidden_by = np.bincount(carried(pieces, believed(pieces, counts)).row, minlength=len(pieces))
     hidden_by = without_short_runs(view, curves, pieces, hidden_by, 2.0 * tolerance)
     return HiddenCurves(pieces, hidden_by, tuple(sorted(short)))
+
+
+def _once(edges: Curves) -> Curves:
+    """The edges without those that are others again, as the borders of two faces at one edge are."""
+    if not len(edges):
+        return edges
+    begin, end = edges.offsets[:-1], edges.offsets[1:] - 1
+    ends = [edges.points[at] for at in (begin, begin + 1, end)]
+    _, first = np.unique(np.column_stack([*ends, edges.kind, end - begin]), axis=0, return_index=True)
+    return edges.take(np.sort(first))
 
 
 def cut_curves(sheets: Sheets, curves: Curves, found: HiddenCurves) -> tuple[Floats, Floats, ChordParts, Ints]:

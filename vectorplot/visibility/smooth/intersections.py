@@ -25,6 +25,7 @@ from vectorplot.geometry.polylines import closed_round
 from vectorplot.geometry.vectors import all_finite
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
+from vectorplot.surfaces.parameter_regions import ParameterRegions
 from vectorplot.surfaces.trimmed import is_embedded
 from vectorplot.tolerances import OUTSIDE_DOMAIN
 from vectorplot.visibility.polyhedra.lines import kept_apart
@@ -109,14 +110,17 @@ def within_trims(curves: Curves, sheets: Mapping[int, SmoothSheet]) -> Curves:
     trims = {k: s.trims for k, s in sheets.items() if isinstance(s, ParametricSheet) and s.trims is not None}
     if not len(curves) or not trims:
         return curves
+    regions = ParameterRegions.together(list(trims.values()))
+    region = np.full(max(trims) + 2, -1)
+    region[list(trims)] = np.arange(len(trims))
 
     def inside(chord: Ints, at: Along) -> Bools:
         found = np.ones(len(chord), dtype=np.bool_)
         for numbers, places in ((curves.sheet, at.places), (curves.second_sheet, at.second_places)):
             of = numbers[curves.owner[chord]]
-            for number, trim in trims.items():
-                own = np.flatnonzero(of == number)
-                found[own] &= trim.contains(places[own, 0], places[own, 1])
+            of = region[np.where(of < len(region) - 1, of, -1)]
+            own = np.flatnonzero(of >= 0)
+            found[own] &= regions.contains(places[own, 0], places[own, 1], of[own])
         return found
 
     every, chord = np.arange(len(curves.points)), curves.chords
@@ -159,17 +163,13 @@ def _divided(curves: Curves, inside: Bools, roots: Roots, at: Along) -> Curves:
     offsets = np.append(np.flatnonzero(starts[kept]), kept.sum())
     source = owner[starts]
     cut = np.bincount(curves.owner[roots.chord], minlength=len(curves)) > 0
-    return Curves(
-        points[kept],
-        places[kept],
-        np.concatenate([curves.second_places, at.second_places])[order][kept],
-        offsets.astype(np.intp),
-        curves.closed[source] & ~cut[source],
-        curves.kind[source],
-        curves.item[source],
-        curves.family[source],
-        curves.level[source],
-        curves.families,
+    return replace(
+        curves.take(source),
+        points=points[kept],
+        places=places[kept],
+        second_places=np.concatenate([curves.second_places, at.second_places])[order][kept],
+        offsets=offsets.astype(np.intp),
+        closed=curves.closed[source] & ~cut[source],
     )
 
 
@@ -223,13 +223,15 @@ def meetings(scene: Scene, view: View, sheets: tuple[SmoothSheet, ...], wants: B
     for number, sheet in enumerate(sheets):
         # Where an implicit surface meets itself its gradient vanishes; these lines are not looked for.
         itself[number] = isinstance(sheet, ParametricSheet) and not is_embedded(sheet.surface)
+        # Faces of bodies end before they would.
+        itself[number] &= not (isinstance(sheet, ParametricSheet) and sheet.of_body)
         if itself[number] and wants[sheet.item] and isinstance(sheet, ParametricSheet):
             found = self_intersections(sheet.asked, tracing=tracing)
             itself[number] = len(found) > 0 or bool(found.doubts)
             doubts += [(scene.items[sheet.item].name, text) for text in found.doubts]
             parts.append(within_trims(_double(found, sheet, number, sheet, number, sheet.item), {number: sheet}))
     pairs = []
-    for one, two in near_sheets([sheet.vertices for sheet in sheets]):
+    for one, two in near_sheets([sheet.vertices for sheet in sheets]) if wants.any() else ():
         items = [i for i in sorted((sheets[one].item, sheets[two].item)) if wants[i]]
         # The sheets of one item are parts of one surface, which meet at its sharp edges only.
         if items and sheets[one].item != sheets[two].item:

@@ -210,7 +210,7 @@ def parameter_lines_of_parametrised(
     return dict(zip(asked, parameter_lines_of_each(surfaces, list(asked.values()), tracing=tracing), strict=True))
 
 
-def _turn(view: View, surface: Surface) -> Contour:
+def contour_condition(view: View, surface: Surface) -> Contour:
     """The condition of the contour."""
     return Isophote(surface, (0.0, 0.0, 1.0)) if view.eye is None else CentralContour(surface, view.eye)
 
@@ -230,7 +230,7 @@ def curves_of_parametrised(
     item = scene.items[sheet.item]
     # Of a surface that is all seen edge-on, as a cylinder from the top, the borders are the whole picture.
     seen = replace(contour, doubts=tuple(text for text in contour.doubts if text != EVERYWHERE))
-    turn = through_pinch_points(_turn(view, sheet.whole.surface))
+    turn = through_pinch_points(contour_condition(view, sheet.whole.surface))
     found: list[Found] = [(LineKind.CONTOUR, ConditionCurves(sheet.whole, number, turn), seen)]
     found += _edges(view, sheet, number, tracing)
     if lines is not None:

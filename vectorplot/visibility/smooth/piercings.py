@@ -101,6 +101,8 @@ class _Lengths:
 ROUNDS, HOPS = 10, 3
 """Steps of Newton; how often a place may go over to a neighbouring chord."""
 
+NO_ITEM = -1
+
 ULPS = 16.0
 """So many times the rounding of points may be between them too."""
 
@@ -172,6 +174,9 @@ def _close(
     within = _within(targets)
     curve, of = _neighbours(sheets, targets, curves, within)
     stranger = (curves.sheet[curve] != of) & (curves.second_sheet[curve] != of) | meets_itself[of]
+    # The faces of a body end at each other: no curve of it pierces them.
+    own = np.append(sheets.item, NO_ITEM)[curves.sheet[curve]]
+    stranger &= ~(np.append(sheets.of_body, False)[of] & (own == sheets.item[of]))
     curve, of = curve[stranger], of[stranger]
     order = np.argsort(of, kind="stable")
     sizes = np.diff(curves.offsets) - 1

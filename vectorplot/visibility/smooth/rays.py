@@ -294,6 +294,9 @@ SLANTING = 0.3
 FAR = 0.5
 """Farther away than this part of the extent curvature tells nothing of where a sheet is met again."""
 
+NEAR_PLACES = 0.05
+"""Places closer together than this part of the domain may be of one meeting near a point on its own sheet."""
+
 FOUND = 3.0
 """A meeting up to so many times as far as curvature says is the one that was looked for."""
 
@@ -466,6 +469,10 @@ def _in_front(
         mine = np.flatnonzero(own[sample] == number)
         apart = sheets.apart(number[mine], places[mine], own_places[sample[mine]])
         edge, near = contour[sample[mine]], distance[mine]
+        close = np.flatnonzero(front[mine] & ~edge & (near < 0.5 * LOCAL_MEETING) & (apart < NEAR_PLACES))
+        few, of = mine[close], sample[mine[close]]
+        off = _off_own(sheets, number[few], own_places[of], samples.points[of], way[of])
+        front[few] &= near[close] > FOUND * off
         front[mine] &= ~(edge & ((near < CONTACT_MEETING) | (apart < CONTACT_PLACES)))
         # The sheet itself and its second meeting nearby: the one is no meeting, the other is told below.
         # Both wings of a cuspidal edge leave it bent without bound: to second order tells nothing, and they end there.
@@ -476,12 +483,21 @@ def _in_front(
         reach = np.where(nearby, 2.0, 0.5) * LOCAL_MEETING
         # Nearer than curvature says the sheet is met again only beside a cuspidal edge: on its other wing.
         wing = np.abs(again[sample[mine]]) > FOUND * near
-        front[mine] &= ~(~edge & ~wing & (np.abs(near) < reach[sample[mine]]) & (apart < 0.05))
+        front[mine] &= ~(~edge & ~wing & (np.abs(near) < reach[sample[mine]]) & (apart < NEAR_PLACES))
         here = here[nearby[here] & (again[here] > 0.0)]
         into = dot(sheets.inwards(own[here], own_places[here]), way[here]) >= 0.0
         again_at += [here[into], own[here[into]]]
     in_front = np.concatenate([sample[front], *again_at[::2]])
     return in_front, np.concatenate([number[front], *again_at[1::2]])
+
+
+def _off_own(sheets: Sheets, number: Ints, places: Floats, points: Floats, way: Floats) -> Floats:
+    """(k,) how far along sight lines points are from the sheets on which they lie at these places (k,3): edges of parts
+    lie on their faces as well as files have it."""
+    normals = sheets.normals(number, places)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        part = dot(normals, sheets.points(number, places) - points) / dot(normals, way)
+    return np.asarray(np.nan_to_num(np.abs(part) * np.linalg.norm(way, axis=1), posinf=0.0))
 
 
 def _second_meeting(sheets: Sheets, number: Ints, way: Floats, places: Floats) -> Floats:

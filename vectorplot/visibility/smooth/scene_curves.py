@@ -18,6 +18,7 @@ from vectorplot.geometry.chord_refinement import Traces, bisected, refined, stra
 from vectorplot.geometry.vectors import dot, norm
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
+from vectorplot.surfaces.brep import Brep
 from vectorplot.surfaces.surface import is_implicit, is_parametrised
 from vectorplot.tolerances import SETTLED_ON_SHEET, ZERO_OF_EXTENT
 from vectorplot.visibility.polyhedra.lines import items_wanting, kinds_of
@@ -340,8 +341,18 @@ def scene_sheets(scene: Scene, view: View, without: Collection[int] = ()) -> tup
     items = [(number, item) for number, item in enumerate(scene.items) if number not in without]
     parametrised = [(item.shape, number, item.hides) for number, item in items if is_parametrised(item.shape)]
     sheets: list[SmoothSheet] = list(sheets_of_items(view, parametrised))
+    if breps := breps_of(scene, without):
+        from vectorplot.visibility.smooth.brep_items import sheets_of_breps
+
+        sheets += sheets_of_breps(view, [(brep, number, scene.items[number].hides) for number, brep in breps.items()])
     sheets += [implicit_sheet(view, item.shape, n, item.hides) for n, item in items if is_implicit(item.shape)]
     return tuple(sorted(sheets, key=lambda sheet: sheet.item))
+
+
+def breps_of(scene: Scene, without: Collection[int] = ()) -> dict[int, Brep]:
+    """The bodies of a scene that are known by their faces, by the numbers of their items, without some."""
+    bodies = {k: item.shape for k, item in enumerate(scene.items) if isinstance(item.shape, Brep)}
+    return {number: body for number, body in bodies.items() if number not in without}
 
 
 def traced_scene(
@@ -360,11 +371,18 @@ def traced_scene(
     """
     tracing = tracing_of(view, tolerance, budget)
     drawn, edges, doubts = [], [], []
-    own = {number: sheet for number, sheet in enumerate(sheets) if isinstance(sheet, ParametricSheet)}
+    breps = breps_of(scene)
+    own = {
+        number: sheet
+        for number, sheet in enumerate(sheets)
+        if isinstance(sheet, ParametricSheet) and sheet.item not in breps
+    }
     contours = contours_of_parametrised(view, own, tracing, lambda part: done(part / 2.0))
     lines_of = parameter_lines_of_parametrised(scene, own, kinds, tracing)
     for number, sheet in enumerate(sheets):
         item = scene.items[sheet.item]
+        if sheet.item in breps:
+            continue
         wanted = kinds_of(item, kinds)
         if isinstance(sheet, ParametricSheet):
             ready = contours[number], lines_of.get(number)
@@ -379,6 +397,14 @@ def traced_scene(
         drawn += _of_kinds(lines, wanted)
         if item.hides:
             edges += _of_kinds(parts, HIDING)
+    all_sheets = Sheets(sheets)
+    if breps:
+        from vectorplot.visibility.smooth.brep_items import curves_of_breps
+
+        found = curves_of_breps(scene, view, breps, all_sheets, kinds, tracing)
+        drawn += found[0]
+        edges += found[1]
+        doubts += found[2]
     wants = items_wanting(LineKind.INTERSECTION, scene, kinds)
     met = meetings(scene, view, sheets, wants, tracing)
     doubts += met.doubts
@@ -386,7 +412,6 @@ def traced_scene(
         wanted = kinds_of(item, kinds) & {LineKind.CURVE, LineKind.LABEL, LineKind.CENTRE, LineKind.TRACE}
         if is_curve(item.shape) and wanted:
             drawn.append(space_curve(view, item.shape, number, sheets, tracing, min(wanted)))
-    all_sheets = Sheets(sheets)
     seen = [_with_images(view, together(parts)) for parts in ([*drawn, met.curves], edges)]
     curves, hiding = with_merged_families(seen, all_sheets)
     curves, stretches = with_other_sheets(curves, hiding, all_sheets)

@@ -17,6 +17,7 @@ from vectorplot.features.holes import along_rims, in_domain, inside, into_surfac
 from vectorplot.features.implicit_meshes import ImplicitMesh, mesh_with_lines
 from vectorplot.features.implicit_singular_lines import CuspidalEdges, default_gradient, singular_lines
 from vectorplot.features.polygonization import polygonized, sides_of
+from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul, pseudo_inverse
 from vectorplot.geometry.vectors import any_component, cross, dot, from_components, norm
 from vectorplot.scene.view import View
@@ -419,10 +420,11 @@ VAIN, MOST_VAIN = 0.8, 2
 vain; after so many times nothing finer is tried. At a vertical tangent they leave less."""
 
 
-def fineness(surfaces: StackedSurfaces) -> tuple[Ints, Ints, Floats]:
-    """(s,) columns and rows of tessellations that are close enough to their surfaces, and how close (s,) they are."""
+def fineness(surfaces: StackedSurfaces, fewest: int = FEWEST) -> tuple[Ints, Ints, Floats]:
+    """(s,) columns and rows of tessellations that are close enough to their surfaces, so many at least, and how close
+    (s,) they are."""
     count = len(surfaces)
-    columns, rows = np.full(count, FEWEST), np.full(count, FEWEST)
+    columns, rows = np.full(count, fewest), np.full(count, fewest)
     deviation, best, vain = np.zeros(count), np.full(count, np.inf), np.zeros(count, dtype=np.intp)
     across, along = np.zeros(count), np.zeros(count)
     active = np.arange(count)
@@ -484,7 +486,8 @@ class ParametricSheet(OnParametrised):
     that were left out, because the surface jumps beneath them; holed: whether it has holes; creases: the v at which
     another sheet of the item begins behind a sharp edge; is_cap: whether it is a flat end, without parameter lines;
     trims: the part of the domain that curves leave, if these are all that ends it: then what is beyond them is known,
-    as of no hole, and the tessellation goes on a little."""
+    as of no hole, and the tessellation goes on a little; of_body: whether it is a face of a body, of which no curve
+    pierces another face."""
 
     surface: Surface
     item: int
@@ -498,6 +501,7 @@ class ParametricSheet(OnParametrised):
     creases: tuple[float, ...] = ()
     is_cap: bool = False
     trims: ParameterRegions | None = None
+    of_body: bool = False
 
     @cached_property
     def whole(self) -> ParametricSheet:
@@ -521,25 +525,32 @@ class ParametricSheet(OnParametrised):
 
 
 def parametric_sheets(
-    surfaces: Sequence[Surface], items: Sequence[int], hides: Sequence[bool]
+    surfaces: Sequence[Surface],
+    items: Sequence[int],
+    hides: Sequence[bool],
+    trims: Sequence[ParameterRegions | None] | None = None,
+    fewest: int = FEWEST,
 ) -> list[ParametricSheet]:
     """The sheets of surfaces that are given in the view's coordinates, made together as far as these are alike.
 
+    trims: what is left of whole surfaces; of each what it says itself where None. fewest: cells of tessellations.
     Edge cases: triangles beneath which a surface jumps are left out; those with a corner in a hole end at its rim;
     those that trims cross are whole.
     """
     sheets: dict[int, ParametricSheet] = {}
-    trims = [trims_of(surface) for surface in surfaces]
+    trims = [trims_of(surface) for surface in surfaces] if trims is None else trims
     asked = [s if trim is None else uncut(s) for s, trim in zip(surfaces, trims, strict=True)]
-    for part in stacks(asked, (FEWEST + 1) ** 2):
+    for part in stacks(asked, (fewest + 1) ** 2):
         stack = StackedSurfaces.of([asked[k] for k in part.tolist()])
-        columns, rows, deviation = fineness(stack)
+        columns, rows, deviation = fineness(stack, fewest)
         for own in alike(columns, rows):
             grids = _Grids.of(stack.take(own), int(columns[own[0]]), int(rows[own[0]]), deviation[own])
             for row, number in enumerate(part[own].tolist()):
                 sheets[number] = grids.sheet(row, asked[number], items[number], hides[number])
-                if (trim := trims[number]) is not None:
-                    sheets[number] = replace(_trimmed(sheets[number], trim), surface=surfaces[number], trims=trim)
+    trimmed = {number: trim for number, trim in enumerate(trims) if trim is not None}
+    ended = _trimmed([sheets[number] for number in trimmed], list(trimmed.values()))
+    for number, sheet in zip(trimmed, ended, strict=True):
+        sheets[number] = replace(sheet, surface=surfaces[number])
     return [sheets[number] for number in range(len(surfaces))]
 
 
@@ -596,20 +607,28 @@ class _Grids:
         )
 
 
-def _trimmed(sheet: ParametricSheet, trims: ParameterRegions) -> ParametricSheet:
-    """A sheet with those triangles of its tessellation of which a part may be within trims."""
-    u, v = sheet.vertex_places[:, 0], sheet.vertex_places[:, 1]
-    kept = any_component(trims.contains(u, v)[sheet.corners]) | trims.borders_within(
-        *(some(sheet.vertex_places[sheet.corners, :2], axis=1) for some in (np.min, np.max))
-    )
-    used, corners = np.unique(sheet.corners[kept], return_inverse=True)
-    return replace(
-        sheet,
-        vertices=sheet.vertices[used],
-        vertex_places=sheet.vertex_places[used],
-        corners=corners.reshape(-1, 3),
-        deviations=sheet.deviations[kept],
-    )
+def _trimmed(sheets: Sequence[ParametricSheet], trims: Sequence[ParameterRegions]) -> Iterator[ParametricSheet]:
+    """Sheets with those triangles of their tessellations of which a part may be within their trims."""
+    if not sheets:
+        return
+    sizes = np.array([len(sheet.vertex_places) for sheet in sheets])
+    places = np.concatenate([sheet.vertex_places for sheet in sheets])
+    # All are asked at once: a few places take as long as many.
+    inner = ParameterRegions.together(trims).contains(places[:, 0], places[:, 1], ragged.owner(sizes))
+    for sheet, trim, first, size in zip(sheets, trims, ragged.starts(sizes).tolist(), sizes.tolist(), strict=True):
+        kept = any_component(inner[first : first + size][sheet.corners])
+        rest = np.flatnonzero(~kept)
+        ends = sheet.vertex_places[sheet.corners[rest], :2]
+        kept[rest] = trim.borders_within(*(some(ends, axis=1) for some in (np.min, np.max)))
+        used, corners = np.unique(sheet.corners[kept], return_inverse=True)
+        yield replace(
+            sheet,
+            vertices=sheet.vertices[used],
+            vertex_places=sheet.vertex_places[used],
+            corners=corners.reshape(-1, 3),
+            deviations=sheet.deviations[kept],
+            trims=trim,
+        )
 
 
 def _longest(triangles: Floats) -> Floats:
@@ -889,6 +908,12 @@ class Sheets:
     def hides(self) -> Bools:
         """(s,) whether they hide what is behind them."""
         return np.array([sheet.hides for sheet in self.sheets], dtype=np.bool_)
+
+    @cached_property
+    def of_body(self) -> Bools:
+        """(s,) whether they are faces of bodies."""
+        own = (isinstance(sheet, ParametricSheet) and sheet.of_body for sheet in self.sheets)
+        return np.fromiter(own, dtype=np.bool_, count=len(self.sheets))
 
     @cached_property
     def groups(self) -> tuple[SheetGroup, ...]:

@@ -1,0 +1,71 @@
+"""Bodies that are known by their surfaces in place of the triangles that stand for them."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Set
+from dataclasses import replace
+
+from vectorplot.errors import InputWarning
+from vectorplot.scene.hatching import Hatching, Stippling
+from vectorplot.scene.item import Item
+from vectorplot.scene.scene import Scene
+from vectorplot.scene.surface_lines import SurfaceLines
+from vectorplot.words import LineKind
+
+EXACT_KINDS = frozenset({LineKind.CONTOUR, LineKind.BOUNDARY, LineKind.CREASE, LineKind.TANGENT, LineKind.INTERSECTION})
+"""The kinds of lines that surfaces of bodies have; all others are those of triangles."""
+
+
+def exact_bodies(scene: Scene, kinds: Set[LineKind], hatch: Hatching | Stippling | None) -> Scene:
+    """The scene with the surfaces of bodies in place of their triangles, where these are as they were read and only
+    lines are asked for that surfaces have.
+
+    kinds: unless an item has its own; hatch: how items are hatched that do not say it themselves. Warns InputWarning:
+    which items stay triangles, and why.
+    """
+    left = dict[str, list[str]]()
+    items = list[Item]()
+    for item in scene.items:
+        why = "" if item.exact is None else _why_not(item, kinds, hatch)
+        if why:
+            left.setdefault(why, []).append(item.name)
+        items.append(item if item.exact is None or why else _exact(item))
+    for why, names in left.items():
+        warnings.warn(f"{', '.join(names)}: drawn from triangles, not exactly, for {why}", InputWarning, stacklevel=3)
+    return replace(scene, items=tuple(items)) if any(item.exact is not None for item in scene.items) else scene
+
+
+def _why_not(item: Item, kinds: Set[LineKind], hatch: Hatching | Stippling | None) -> str:
+    """Why an item stays triangles; nothing where it does not."""
+    own = kinds if item.lines is None else frozenset(map(LineKind.from_word, item.lines))
+    others = sorted(own - EXACT_KINDS)
+    asked = item.curves.isophotes or item.curves.sections or item.curves.integral or item.curves.contours
+    if item.exact is None or item.exact.mesh is not item.shape:
+        return "it is cut"
+    hatching = hatch if item.hatch is None else item.hatch
+    if hatching is not None and hatching.by != "none":
+        return "it is hatched"
+    if item.material.is_mirror or item.material.refraction != 1.0:
+        return "its material"
+    if item.patterns or item.added_edges is not None:
+        return "what lies on its faces"
+    if {LineKind.OUTLINE, LineKind.EDGES} & own or (asked and others):
+        return "lines of kind " + ", ".join(kind.word for kind in others)
+    return ""
+
+
+def _exact(item: Item) -> Item:
+    """The item with its surfaces for a shape."""
+    assert item.exact is not None
+    return replace(
+        item,
+        shape=item.exact,
+        normals=None,
+        drawn_edges=None,
+        tangent_edges=None,
+        face_looks=None,
+        fields=None,
+        curves=SurfaceLines(),
+        exact=None,
+    )
