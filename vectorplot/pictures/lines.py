@@ -657,7 +657,7 @@ def lines_in_place(
     draw.
     """
     told = None if progress is None else lambda stage, fraction: progress(fraction)
-    stages = plan_draw(scene, kinds, "none", 0.0, reflections=reflections, parallel=bends and view.eye is None)
+    stages = plan_draw(scene, kinds, "none", 0.0, reflections=reflections, bends=bends)
     pipeline = Pipeline(stages, None, told)
     allowed, tolerance = budget_of(budget), 0.5 * tolerance_mm / placement.scale
     shapes = traceable(pipeline, scene, view, faces, kinds, crease_angle_deg, allowed)
