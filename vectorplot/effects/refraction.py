@@ -5,9 +5,7 @@ Source: Glaeser, section 6.6, figure 11.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, field, replace
-from typing import Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -373,10 +371,6 @@ class SightWays:
         """As BentRays."""
         return virtual_points(view, self, points, way)
 
-    def is_affine(self, view: View) -> bool:
-        """As BentRays: parallel rays stay parallel."""
-        return view.eye is None
-
     def seen_parts(self, view: View, start: Floats, end: Floats) -> tuple[Ints, Floats, Floats]:
         """As BentRays. All behind one surface is seen; where rays leave by another one, ends of what is seen are found
         by halving between places on the way."""
@@ -392,7 +386,9 @@ class SightWays:
         at_low, at_high = seen[which, place], seen[which, place + 1]
         ends = np.flatnonzero(at_low != at_high)
         base, run = start[:, which[ends]], (end - start)[:, which[ends]]
-        near, far = (np.where(at_low[ends], one, other) for one, other in ((low[ends], high[ends]), (high[ends], low[ends])))
+        near, far = (
+            np.where(at_low[ends], one, other) for one, other in ((low[ends], high[ends]), (high[ends], low[ends]))
+        )
 
         def goes_on(way: Ints, share: Floats) -> Bools:
             part = near[way] + share * (far - near)[way]
@@ -404,21 +400,6 @@ class SightWays:
         low[ends], high[ends] = np.minimum(near, until), np.maximum(near, until)
         begin, run = start[:, which], (end - start)[:, which]
         return which, begin + low * run, np.where(high < 1.0, begin + high * run, end[:, which])
-
-
-class BentRays(Protocol):
-    """Sight rays that are bent or reflected on their way: where they show things."""
-
-    def virtual(self, view: View, points: Floats, way: Ints) -> tuple[Floats, Bools]:
-        """(3,n) where points (3,n) seem to be, each on the straight ray on which the eye sees it, at a depth that keeps
-        the order along bent rays; and (n,) which are seen at all. way (n,): of the rays, of each point."""
-
-    def is_affine(self, view: View) -> bool:
-        """Whether what is straight is seen straight."""
-
-    def seen_parts(self, view: View, start: Floats, end: Floats) -> tuple[Ints, Floats, Floats]:
-        """The parts of segments from start to end (3,n) that are seen on the first way: which (k,) each is of, and its
-        ends (3,k)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -665,7 +646,7 @@ def joined_soups(parts: list[Soup]) -> Soup:
     return polylines.joined((Soup(np.zeros((3, 0)), ragged.offsets(none), none, none), *parts))
 
 
-def bent(view: View, rays: BentRays, soup: Soup, windows: Floats, tolerance: float) -> Soup:
+def bent(view: View, sight_ways: SightWays, soup: Soup, windows: Floats, tolerance: float) -> Soup:
     """Polygons with virtual corners; in a perspective cut into triangles until their sides are straight enough.
 
     windows (4,w): smallest and largest x, smallest and largest y of what is looked at on each way. tolerance: how far
@@ -674,49 +655,28 @@ def bent(view: View, rays: BentRays, soup: Soup, windows: Floats, tolerance: flo
     """
     if not len(soup):
         return soup
-    if rays.is_affine(view):
-        return _moved(view, rays, soup, windows)
-    fine, _ = bent_triangles(view, rays, fans(soup), windows, tolerance, INNER * tolerance, view.image_of, MOST_TRIANGLES)
-    points = fine.corners.transpose(0, 2, 1).reshape(3, -1)
-    return Soup(points, np.arange(0, points.shape[1] + 1, 3), fine.source, fine.way)
-
-
-def bent_triangles(
-    view: View,
-    rays: BentRays,
-    triangles: Triangles,
-    windows: Floats,
-    tolerance: float,
-    inner: float,
-    measured: Callable[[Floats], Floats],
-    most: int,
-) -> tuple[Triangles, bool]:
-    """Triangles with virtual corners, cut until their sides are straight enough, and whether so many did for that.
-
-    windows: as in bent; tolerance, inner: how far outer and other sides may be off the curves that they stand for,
-    between points (3,n) as measured, (k,n), in the image or in space. A side is cut by what is known of it alone, so
-    that neighbours with the same corners stay neighbours.
-    """
-    going, done, enough = triangles, [], True
+    if view.eye is None:
+        return _moved(view, sight_ways, soup, windows)
+    going = _fans(soup)
+    done = []
     for number in in_turn(range(MOST_ROUNDS + 1)):
-        points, seen = going.virtual(view, rays)
-        off, near = _bends(view, points, seen, windows[:, going.way], measured)
-        along = seen[:3] & seen[[1, 2, 0]] & seen[3:]
+        points, seen = going.virtual(view, sight_ways)
+        off, near = _bends(view, points, seen, windows[:, going.way])
+        partly = ~seen.all(axis=0)
         hopeful = seen.any(axis=0) | (number < BLIND_ROUNDS)
-        wanted = near & hopeful & (~along | (off > np.where(going.outer, tolerance, inner)))
-        halved = wanted & (number < MOST_ROUNDS) & (len(going.way) <= most // 4)
-        enough &= number == MOST_ROUNDS or not (wanted & ~halved).any()
+        halved = (partly & hopeful) | (~partly & (off > tolerance * np.where(going.outer, 1.0, INNER)))
+        halved &= near & (number < MOST_ROUNDS) & (len(going.way) <= MOST_TRIANGLES // 4)
         whole = ~halved.any(axis=0)
         fine = np.flatnonzero(whole & seen[:3].all(axis=0) & near)
-        done.append(replace(records.take(going, fine), corners=points[:, :3, fine]))
+        done.append(_as_soup(points[:, :3, fine], going.source[fine], going.way[fine]))
         going = going.halved(np.flatnonzero(~whole), halved)
         if not len(going.way):
             break
-    return records.joined(done), enough
+    return joined_soups(done)
 
 
 @dataclass(frozen=True, eq=False)
-class Triangles:
+class _Triangles:
     """Triangles: corners (3,3,t): coordinate, corner, triangle; outer (3,t): whether the side that begins at each
     corner is part of the outline of a polygon; source, way (t,) as in Soup."""
 
@@ -729,12 +689,12 @@ class Triangles:
         """(3,6,t) the corners and then the middles of the sides that begin there."""
         return np.concatenate([self.corners, 0.5 * (self.corners + np.roll(self.corners, -1, axis=1))], axis=1)
 
-    def virtual(self, view: View, rays: BentRays) -> tuple[Floats, Bools]:
+    def virtual(self, view: View, sight_ways: SightWays) -> tuple[Floats, Bools]:
         """(3,6,t) where the corners and middles seem to be, and (6,t) which are seen."""
-        points, seen = rays.virtual(view, self.with_middles().reshape(3, -1), np.tile(self.way, 6))
+        points, seen = virtual_points(view, sight_ways, self.with_middles().reshape(3, -1), np.tile(self.way, 6))
         return points.reshape(3, 6, -1), seen.reshape(6, -1)
 
-    def halved(self, which: Ints, sides: Bools) -> Triangles:
+    def halved(self, which: Ints, sides: Bools) -> _Triangles:
         """What some (n,) of the triangles are cut into where sides (3,t) are to be halved."""
         count = sides[:, which].sum(axis=0)
         # Turned so that one halved side comes first, and of two the second one second.
@@ -747,7 +707,7 @@ class Triangles:
             from_side = np.concatenate([outer[:, own], np.zeros((1, len(own)), dtype=np.bool_)])
             for corner, side in pieces:
                 parts.append(
-                    Triangles(
+                    _Triangles(
                         points[:, list(corner)][:, :, own],
                         from_side[list(side)],
                         self.source[which[own]],
@@ -766,36 +726,38 @@ PIECES = {
 sides; and of which of its sides their sides are parts: 3 stands for none."""
 
 
-def fans(soup: Soup) -> Triangles:
+def _fans(soup: Soup) -> _Triangles:
     """Triangles from the first corners of polygons."""
     corner, owner = ragged.fans(soup.offsets)
     inner = np.zeros(len(owner), dtype=np.bool_)
     same = owner[1:] == owner[:-1]
     outer = np.stack([~np.append(inner[:1], same), ~inner, ~np.append(same, inner[:1])])
-    return Triangles(soup.points[:, corner.T], outer, soup.source[owner], soup.way[owner])
+    return _Triangles(soup.points[:, corner.T], outer, soup.source[owner], soup.way[owner])
 
 
-def _moved(view: View, rays: BentRays, soup: Soup, windows: Floats) -> Soup:
+def _as_soup(corners: Floats, source: Ints, way: Ints) -> Soup:
+    points = corners.transpose(0, 2, 1).reshape(3, -1)
+    return Soup(points, np.arange(0, points.shape[1] + 1, 3), source, way)
+
+
+def _moved(view: View, sight_ways: SightWays, soup: Soup, windows: Floats) -> Soup:
     """Polygons as they are seen in a parallel projection: they keep straight sides."""
     sizes = np.diff(soup.offsets)
-    points, seen = rays.virtual(view, soup.points, np.repeat(soup.way, sizes))
+    points, seen = virtual_points(view, sight_ways, soup.points, np.repeat(soup.way, sizes))
     image = view.image_of(points)
     box = np.stack([over_corners(e, row, soup.offsets) for row in image for e in (np.minimum, np.maximum)])
     kept = np.logical_and.reduceat(seen, soup.offsets[:-1]) & _meet(box, windows[:, soup.way])
     return Soup(points, soup.offsets, soup.source, soup.way).take(np.flatnonzero(kept))
 
 
-def _bends(
-    view: View, points: Floats, seen: Bools, windows: Floats, measured: Callable[[Floats], Floats]
-) -> tuple[Floats, Bools]:
-    """(3,n) how far the middles of the sides of triangles (3,6,n), corners and then middles, are off the straight
-    lines, measured as in bent_triangles, and (n,) whether the triangles may be seen in windows (4,n).
+def _bends(view: View, points: Floats, seen: Bools, windows: Floats) -> tuple[Floats, Bools]:
+    """(3,n) how far the middles of the sides of triangles (3,6,n), corners and then middles, are off the straight lines
+    in the image, and (n,) whether the triangles may be seen in windows (4,n).
 
     Of triangles that are seen (6,n) only partly, what is not is taken to be no farther off than they are wide.
     """
     image = view.image_of(points.reshape(3, -1)).reshape(2, 6, -1)
-    nodes = measured(points.reshape(3, -1)).reshape(-1, 6, points.shape[2])
-    off = nodes[:, 3:] - 0.5 * (nodes[:, :3] + np.roll(nodes[:, :3], -1, axis=1))
+    off = image[:, 3:] - 0.5 * (image[:, :3] + np.roll(image[:, :3], -1, axis=1))
     bend = np.sqrt((off * off).sum(axis=0))
     low = np.where(seen, image, np.inf).min(axis=1)
     high = np.where(seen, image, -np.inf).max(axis=1)

@@ -1,25 +1,29 @@
 """Lines of a scene as they are seen on rays that are bent or reflected by what is curved, or bent in a perspective.
 
 Where things seem to be, each on its straight ray, is a scene of its own: polygons become finely cut triangles, their
-sides keep their neighbours, and lines are found on it, and hidden by it, as on any other. Sides that are lines are those
-that are so in the scene as it is; contours are those of the seeming scene, where bent rays graze the true one.
+sides keep their neighbours, and lines are found on it, and hidden by it, as on any other. Sides that are lines are
+those that are so in the scene as it is; contours are those of the seeming scene, where bent rays graze the true one.
 """
 
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from typing import Protocol
 
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.effects.refraction import BentRays, Soup, Triangles, bent_triangles, fans
 from vectorplot.errors import InputWarning
+from vectorplot.features.edge_splitting import FIRST, divided
 from vectorplot.features.mesh_edge_lines import Faces, mesh_edges
 from vectorplot.geometry import chord_refinement, ragged, records
-from vectorplot.geometry.budget import unresolved
+from vectorplot.geometry.budget import in_turn, unresolved
 from vectorplot.geometry.chord_refinement import Traces, straight_between
+from vectorplot.geometry.component_arrays import dot
+from vectorplot.geometry.connectivity import edges_of
+from vectorplot.geometry.records import IN_COLUMNS, Elements
 from vectorplot.geometry.vectors import normalize
 from vectorplot.pictures.line_sources import LineSources, seen_parts, traceable
 from vectorplot.pictures.pipeline import Pipeline
@@ -33,11 +37,36 @@ from vectorplot.visibility.polyhedra.lines import Lines, in_window, items_wantin
 from vectorplot.visibility.projected_faces import ProjectedFaces, project_faces
 from vectorplot.words import LineKind
 
+FINER = 0.25
+"""Triangles and chords are off what they stand for by this part of the tolerance: they decide what is hidden."""
+
 ASIDE = 2.0
-"""Lines are tested so many tolerances before where they seem to be: triangles of what touches are off by one each."""
+"""Lines are tested so many tolerances before where they seem to be: so they are seen on what they lie on, also from the
+side, off by FINER as both are."""
+
+ROUNDS = 40
+"""So often sides are halved at most, where it takes that."""
+
+BORDER = 1.0 / 64.0
+"""Sides beyond one end of which nothing is seen are halved until they are no longer, in units of the scene."""
+
+BLIND = 0.25
+"""The same of sides where nothing is seen, at their ends or in their middle."""
 
 EVERYWHERE = np.array([-np.inf, np.inf, -np.inf, np.inf])
 """The window of an image without borders: smallest and largest x, smallest and largest y."""
+
+
+class BentRays(Protocol):
+    """Sight rays that are bent or reflected on their way: where they show things."""
+
+    def virtual(self, view: View, points: Floats, way: Ints) -> tuple[Floats, Bools]:
+        """(3,n) where points (3,n) seem to be, each on the straight ray on which the eye sees it, at a depth that keeps
+        the order along bent rays; and (n,) which are seen at all. way (n,): of the rays, of each point."""
+
+    def seen_parts(self, view: View, start: Floats, end: Floats) -> tuple[Ints, Floats, Floats]:
+        """The parts of segments from start to end (3,n) that are seen on the first way: which (k,) each is of, and its
+        ends (3,k)."""
 
 
 # What there is to be seen.
@@ -108,26 +137,118 @@ def _numbered(rows: Floats) -> tuple[Ints, int]:
 # Where it seems to be.
 
 
+@dataclass(frozen=True, eq=False)
+class Vertices(Elements):
+    """Corners of triangles: points (3,v) where they are, seeming (3,v) where they seem to be, seen (v,): whether they
+    are seen at all."""
+
+    points: Floats = field(metadata=IN_COLUMNS)
+    seeming: Floats = field(metadata=IN_COLUMNS)
+    seen: Bools
+
+    @classmethod
+    def of(cls, view: View, rays: BentRays, points: Floats) -> Vertices:
+        """Those of some points (3,v)."""
+        return cls(points, *rays.virtual(view, points, np.zeros(points.shape[1], dtype=np.intp)))
+
+
+@dataclass(frozen=True, eq=False)
+class Triangles:
+    """Triangles (t,3) of vertices, item (t,) of each; drawn (s,): sides that are lines, see keys_of."""
+
+    vertices: Vertices
+    triangles: Ints
+    item: Ints
+    drawn: Ints
+
+
+def keys_of(one: Ints, other: Ints) -> Ints:
+    """(n,) numbers of sides between vertices (n,): the smaller one of each in the upper half of the bits."""
+    return np.minimum(one, other) << 32 | np.maximum(one, other)
+
+
 def bent_faces(things: Things, rays: BentRays, box: Floats, how: Depth) -> Triangles:
-    """The faces as rays show them, of the sources that their items are, whose outer sides are lines. box (4,):
-    smallest and largest x, smallest and largest y of what is looked at.
+    """The faces as rays show them, cut until their sides are straight enough: each for both of its triangles or none.
+    box (4,): smallest and largest x, smallest and largest y of what is looked at.
 
     Warns: InputWarning where the budget does not do for the tolerance.
     """
-    view, tolerance = things.view, how.tolerance
-    item = view.face_item
-    soup = Soup(view.points[:, view.corners], view.offsets, item, np.zeros_like(item))
-    triangles, (corner, _) = fans(soup), ragged.fans(view.offsets)
-    triangles = replace(triangles, outer=triangles.outer & things.drawn[corner.T])
-    most = how.budget.facets
-    fine, enough = bent_triangles(view, rays, triangles, box[:, None], tolerance, tolerance, _in_space, most)
-    if not enough:
-        warnings.warn(unresolved("what is seen on bent rays is coarser than the tolerance"), InputWarning, stacklevel=2)
-    return fine
+    view, tolerance = things.view, FINER * how.tolerance
+    corner, face = ragged.fans(view.offsets)
+    begin = np.flatnonzero(things.drawn)
+    drawn = np.unique(keys_of(view.corners[begin], view.corners[view.after(begin)]))
+    found = Triangles(Vertices.of(view, rays, view.points), view.corners[corner], view.face_item[face], drawn)
+    known, known_off = np.zeros(0, dtype=np.intp), np.zeros(0)
+    for _ in in_turn(range(ROUNDS)):
+        vertices, triangles = found.vertices, found.triangles
+        edges, sides, _ = edges_of(triangles, len(vertices.seen))
+        key = keys_of(*edges.T)
+        order = np.argsort(key)
+        place = np.minimum(np.searchsorted(known, key), max(len(known) - 1, 0))
+        new = np.flatnonzero(known[place] != key) if len(known) else np.arange(len(key))
+        middle = Vertices.of(view, rays, 0.5 * (vertices.points[:, edges[new, 0]] + vertices.points[:, edges[new, 1]]))
+        off = known_off[place] if len(known) else np.zeros(len(key))
+        off[new] = _off(vertices.take(edges[new, 0]), middle, vertices.take(edges[new, 1]))
+        of_sides = off[sides] / tolerance
+        coarse = (of_sides > 1.0) & (of_sides >= FIRST * of_sides.max(axis=1)[:, None])
+        coarse &= _looked_at(view, vertices, triangles, off[sides].max(axis=1), box)[:, None]
+        split = np.zeros(len(edges), dtype=np.bool_)
+        split[sides[coarse]] = True
+        which = np.flatnonzero(split)
+        if not len(which):
+            break
+        if len(triangles) + int(split[sides].sum()) > how.budget.facets:
+            text = unresolved("what is seen on bent rays is coarser than the tolerance")
+            warnings.warn(text, InputWarning, stacklevel=2)
+            break
+        found = _halved(view, rays, found, edges, sides, which)
+        known, known_off = key[order], off[order]
+    return found
 
 
-def _in_space(points: Floats) -> Floats:
-    return points
+def _off(start: Vertices, middle: Vertices, end: Vertices) -> Floats:
+    """(n,) how far the middles of sides are off the straight lines between their ends in space; infinite for long sides
+    that are seen only partly, or not where they might be."""
+    sag = middle.seeming - 0.5 * (start.seeming + end.seeming)
+    way = end.points - start.points
+    length = np.sqrt(dot(way, way))
+    seen = start.seen & middle.seen & end.seen
+    some = start.seen | middle.seen | end.seen
+    unknown = np.where(length > np.where(some, BORDER, BLIND), np.inf, 0.0)
+    return np.asarray(np.where(seen, np.sqrt(dot(sag, sag)), unknown))
+
+
+def _looked_at(view: View, vertices: Vertices, triangles: Ints, off: Floats, box: Floats) -> Bools:
+    """(t,) which triangles may be seen in a box (4,) of the image; off (t,): how far they are off at most."""
+    x, y = view.image_of(vertices.seeming)[:, triangles]
+    seen = vertices.seen[triangles]
+    low, high = (
+        (np.where(seen, x, np.inf).min(axis=1), np.where(seen, y, np.inf).min(axis=1)),
+        (
+            np.where(seen, x, -np.inf).max(axis=1),
+            np.where(seen, y, -np.inf).max(axis=1),
+        ),
+    )
+    margin = np.where(seen.all(axis=1), off, 0.0)
+    within = (high[0] + margin >= box[0]) & (low[0] - margin <= box[1])
+    within &= (high[1] + margin >= box[2]) & (low[1] - margin <= box[3])
+    return np.asarray(within | ~seen.all(axis=1) | np.isinf(off))
+
+
+def _halved(view: View, rays: BentRays, found: Triangles, edges: Ints, sides: Ints, which: Ints) -> Triangles:
+    """The triangles with some of their edges (e,2) halved; sides (t,3) the edges of each."""
+    vertices, count = found.vertices, len(found.vertices.seen)
+    a, b = edges[which].T
+    more = Vertices.of(view, rays, 0.5 * (vertices.points[:, a] + vertices.points[:, b]))
+    middle = np.full(len(edges), -1, dtype=np.intp)
+    middle[which] = count + np.arange(len(which))
+    every = records.joined([vertices, more])
+    triangles, of = divided(found.triangles, middle[sides], every.points.T)
+    ended = np.isin(found.drawn, keys_of(a, b))
+    own = np.isin(keys_of(a, b), found.drawn)
+    halves = [keys_of(side[own], middle[which[own]]) for side in (a, b)]
+    drawn = np.concatenate([found.drawn[~ended], *halves])
+    return Triangles(every, triangles, found.item[of], drawn)
 
 
 def bent_lines(view: View, rays: BentRays, lines: Lines, how: Depth) -> Lines:
@@ -144,7 +265,9 @@ def bent_lines(view: View, rays: BentRays, lines: Lines, how: Depth) -> Lines:
     ends = np.stack([start, end], axis=2).reshape(3, -1).T
     last = np.tile([False, True], len(which))
     traces = Traces(np.ascontiguousarray(ends), last)
-    fine = chord_refinement.refined(traces, straight_between, image, how.tolerance, how.budget.points, none[: len(which)])
+    fine = chord_refinement.refined(
+        traces, straight_between, image, FINER * how.tolerance, how.budget.points, none[: len(which)]
+    )
     there, last = image(fine.lines.points).T, fine.lines.last
     first = np.flatnonzero(~last)
     own = np.repeat(np.arange(len(which)), np.diff(np.flatnonzero(last), prepend=-1) - 1)
@@ -156,8 +279,7 @@ def bent_lines(view: View, rays: BentRays, lines: Lines, how: Depth) -> Lines:
 
 @dataclass(frozen=True, eq=False)
 class Seeming:
-    """A scene where it seems to be: view, and its faces in the image, triangles among them its own; lines: of it; nobody
-    knows what is solid."""
+    """A scene where it seems to be: view, and its faces in the image, triangles among them its own; lines: of it."""
 
     view: View
     faces: ProjectedFaces
@@ -167,65 +289,68 @@ class Seeming:
     def seen(self, hidden: str) -> Visibility:
         """Which parts of the lines are seen, or, with a word of draw for hidden lines, by how many items hidden."""
         pipeline = Pipeline(plan_draw(Scene(()), frozenset(), hidden, 0.0), None, None)
-        return seen_parts(pipeline, self.view, self.faces, np.zeros(len(self.view.occludes), dtype=np.bool_), self.lines)
+        return seen_parts(
+            pipeline, self.view, self.faces, np.zeros(len(self.view.occludes), dtype=np.bool_), self.lines
+        )
 
 
 def seeming(
-    things: Things, rays: BentRays, box: Floats, window: Window | None, how: Depth, before: Sequence[Triangles] = ()
+    things: Things, rays: BentRays, box: Floats, window: Window | None, how: Depth, before: Triangles | None = None
 ) -> Seeming:
-    """What rays show of things in a window of the image, box (4,) or larger; before: other triangles that only hide,
-    the sources being their items."""
-    view = things.view
-    own, items = bent_faces(things, rays, box, how), len(view.occludes)
-    parts = [own, *(replace(one, source=one.source + items, outer=np.zeros_like(one.outer)) for one in before)]
-    every = records.joined(parts)
-    mixed = _view_of_triangles(view, every, np.tile(view.occludes, 2 if before else 1))
-    faces = project_faces(mixed)
-    outlined = np.concatenate([things.outlined, np.zeros(len(mixed.occludes) - items, dtype=np.bool_)])
-    lines = joined_lines([_edges(mixed, faces, every, outlined), bent_lines(view, rays, things.lines, how)])
+    """What rays show of things in a window of the image, box (4,) or larger; before: other triangles that only hide."""
+    view, own = things.view, bent_faces(things, rays, box, how)
+    parts = [own] if before is None else [own, before]
+    mixed, number = _view_of_triangles(view, parts)
+    faces, drawn = project_faces(mixed), keys_of(number[own.drawn >> 32], number[own.drawn & 0xFFFFFFFF])
+    edges = _edges(mixed, faces, drawn, things.outlined)
+    lines = joined_lines([edges, bent_lines(view, rays, things.lines, how)])
     lines = in_window(mixed, lines, window)
     return Seeming(mixed, faces, own, replace(lines, aside=_aside(mixed, lines, ASIDE * how.tolerance)))
 
 
-def _view_of_triangles(view: View, triangles: Triangles, occludes: Bools) -> View:
-    """The view of triangles whose sources are items; equal corners of one item are one."""
-    points = triangles.corners.transpose(0, 2, 1).reshape(3, -1)
-    rows = np.concatenate([np.repeat(triangles.source, 3)[None], points + 0.0])
-    number, count = _numbered(rows)
-    vertices = np.empty((4, count))
-    vertices[:, number] = rows
-    return replace(
+def _view_of_triangles(view: View, parts: list[Triangles]) -> tuple[View, Ints]:
+    """The view of all that is seen of triangles, with the items of each part after those of the part before; and the
+    numbers (v,) there of the vertices of the first part."""
+    items, count = len(view.occludes), [len(part.vertices.seen) for part in parts]
+    first = ragged.starts(np.array(count))
+    triangles = np.concatenate([part.triangles + at for part, at in zip(parts, first, strict=True)])
+    item = np.concatenate([part.item + k * items for k, part in enumerate(parts)])
+    of_vertex = np.zeros(sum(count), dtype=np.intp)
+    of_vertex[triangles.ravel()] = np.repeat(item, 3)
+    by_item = np.argsort(of_vertex, kind="stable")
+    number = np.empty_like(by_item)
+    number[by_item] = np.arange(len(by_item))
+    every = records.joined([part.vertices for part in parts]).take(by_item)
+    triangles = number[triangles]
+    kept = np.flatnonzero(every.seen[triangles].all(axis=1))
+    kept = kept[np.argsort(item[kept], kind="stable")]
+    found = replace(
         view,
-        points=np.ascontiguousarray(vertices[1:]),
-        corners=number.reshape(-1, 3)[_by_item(triangles)].ravel(),
-        offsets=3 * np.arange(len(triangles.source) + 1),
-        inner=np.zeros(len(number), dtype=np.bool_),
-        face_item=np.sort(triangles.source),
-        item_vertices=np.searchsorted(vertices[0], np.arange(len(occludes) + 1)),
-        occludes=occludes,
+        points=every.seeming,
+        corners=triangles[kept].ravel(),
+        offsets=3 * np.arange(len(kept) + 1),
+        inner=np.zeros(3 * len(kept), dtype=np.bool_),
+        face_item=item[kept],
+        item_vertices=np.searchsorted(of_vertex[by_item], np.arange(len(parts) * items + 1)),
+        occludes=np.tile(view.occludes, len(parts)),
         face_look=None,
     )
+    return found, number[: count[0]]
 
 
-def _by_item(triangles: Triangles) -> Ints:
-    return np.argsort(triangles.source, kind="stable")
-
-
-def _edges(view: View, faces: ProjectedFaces, triangles: Triangles, outlined: Bools) -> Lines:
-    """The sides of triangles that are lines or contours, each once."""
-    outer = triangles.outer[:, _by_item(triangles)].T.ravel()
-    side = np.flatnonzero(outer)
-    a, b, item = view.corners[side], view.corners[view.after(side)], view.face_item[side // 3]
+def _edges(view: View, faces: ProjectedFaces, drawn: Ints, outlined: Bools) -> Lines:
+    """The sides of the triangles of a view that are lines, see keys_of, or contours of the first items (i,), once
+    each."""
     of_all = Faces(view.points, view.corners, view.offsets, view.inner, faces.facing)
     edges = mesh_edges(of_all, {LineKind.CONTOUR}, 180.0)
-    edges = records.take(edges, outlined[view.face_item[edges.face]])
-    a, b = np.concatenate([a, edges.start]), np.concatenate([b, edges.end])
-    item = np.concatenate([item, view.face_item[edges.face]])
-    _, first = np.unique(np.minimum(a, b) * view.points.shape[1] + np.maximum(a, b), return_index=True)
-    a, b, item = a[first], b[first], item[first]
-    kind = np.full(len(first), int(LineKind.CONTOUR))
-    lines = straight_lines(view.points[:, a], view.points[:, b], kind, item, np.zeros_like(item))
-    return replace(lines, smooth=np.ones(len(first), dtype=np.bool_))
+    outlined = np.concatenate([outlined, np.zeros(len(view.occludes) - len(outlined), dtype=np.bool_)])
+    contours = keys_of(edges.start, edges.end)[outlined[view.face_item[edges.face]]]
+    begin, end = view.corners, view.corners[ragged.following(view.offsets)]
+    key, first = np.unique(keys_of(begin, end), return_index=True)
+    side = first[np.isin(key, np.concatenate([drawn, contours]))]
+    item, ends = view.face_item[side // 3], (view.points[:, begin[side]], view.points[:, end[side]])
+    lines = straight_lines(*ends, np.full(len(side), int(LineKind.CONTOUR)), item, np.zeros_like(item))
+    return replace(lines, smooth=np.ones(len(side), dtype=np.bool_))
 
 
 def _aside(view: View, lines: Lines, length: float) -> Floats:

@@ -360,7 +360,7 @@ class _Glass:
     ) -> Doubles:
         """What is seen behind the solid through a pane and some of its faces, hidden by what it holds."""
         view, panes, how = self._view, self.panes, self.how
-        shown = seeming(behind, leaves, box, _corners(box), how, (held.triangles,))
+        shown = seeming(behind, leaves, box, _corners(box), how, held.triangles)
         outlines = self.solid.outlines(faces)
         outlines = outlines.on_ways(np.arange(len(faces)), np.zeros_like(faces))
         rays = self.solid.sight_ways(self._faces(number)[:1])
@@ -378,9 +378,7 @@ def _corners(box: Floats) -> Window:
     return box[[0, 2]], box[[1, 3]]
 
 
-def _in_outline(
-    view: View, panes: Mirrors, number: int, outline: Soup, shown: Seeming, seen: Visibility
-) -> Visibility:
+def _in_outline(view: View, panes: Mirrors, number: int, outline: Soup, shown: Seeming, seen: Visibility) -> Visibility:
     """What is seen of lines through the image of convex polygons in a pane."""
     ends = shown.lines.ends(shown.view, seen.segment, seen.low, seen.high)
     (here, near), (there, far) = (on_plane(view, panes, number, side) for side in ends)
