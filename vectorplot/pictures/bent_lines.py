@@ -192,8 +192,7 @@ def bent_faces(things: Things, rays: BentRays, box: Floats, how: Depth) -> Trian
         of_sides = off[sides] / tolerance
         coarse = (of_sides > 1.0) & (of_sides >= FIRST * of_sides.max(axis=1)[:, None])
         coarse &= _looked_at(view, vertices, triangles, off[sides].max(axis=1), box)[:, None]
-        split = np.zeros(len(edges), dtype=np.bool_)
-        split[sides[coarse]] = True
+        split = _with_longest(vertices, edges, sides, coarse)
         which = np.flatnonzero(split)
         if not len(which):
             break
@@ -204,6 +203,21 @@ def bent_faces(things: Things, rays: BentRays, box: Floats, how: Depth) -> Trian
         found = _halved(view, rays, found, edges, sides, which)
         known, known_off = key[order], off[order]
     return found
+
+
+def _with_longest(vertices: Vertices, edges: Ints, sides: Ints, coarse: Bools) -> Bools:
+    """(e,) the edges (e,2) that are sides of triangles, sides (t,3), that are too coarse (t,3), and the longest side of
+    each triangle of which a side is halved, so that none gets narrow. Source: Rivara 1984."""
+    way = vertices.points[:, edges[:, 1]] - vertices.points[:, edges[:, 0]]
+    of_sides = dot(way, way)[sides]
+    longest = np.take_along_axis(sides, of_sides.argmax(axis=1)[:, None], axis=1)[:, 0]
+    split = np.zeros(len(edges), dtype=np.bool_)
+    split[sides[coarse]] = True
+    while True:
+        more = longest[split[sides].any(axis=1)]
+        if split[more].all():
+            return split
+        split[more] = True
 
 
 def _off(start: Vertices, middle: Vertices, end: Vertices) -> Floats:
