@@ -162,6 +162,13 @@ MET_OF_EXTENT = 1e-10
 """A ray or a curve meets a sheet where the two come closer than this: a thousand times what the search reaches where
 they cross, and far less than they are apart where they do not."""
 
+FERMAT_SETTLED = 1e-13
+"""A search for the point of a mirror that shows another one ends where its steps are shorter, in units of the extent."""
+
+FERMAT_RESIDUAL = 1e-10
+"""A point of a mirror shows another one where the directions to eye and point differ from mirrored ones by less, as
+unit vectors: a thousand times what the search reaches."""
+
 NEARLY_MET = 1e-7
 """A search for a meeting goes on from what is nearer than this after its first steps; Newton squares it in the next."""
 

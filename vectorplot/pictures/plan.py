@@ -129,7 +129,7 @@ def plan_draw(
         stages.append(Stage("visible lines", "hidden lines are left out"))
     else:
         stages.append(Stage("counted lines", f"hidden lines are drawn {hidden}"))
-    if reflections and style == "plain" and wanted - {LineKind.OUTLINE} and has_plane_mirrors(scene):
+    if reflections and style == "plain" and wanted - {LineKind.OUTLINE} and _has_mirrors(scene):
         why = f"items are mirrors: lines that one sees in them{_deep(reflections)}"
         stages.append(Stage("reflected lines", why))
     if bends and style == "plain" and wanted - {LineKind.OUTLINE} and refracts(scene):
@@ -330,6 +330,11 @@ def _deep(reflections: int) -> str:
 def has_plane_mirrors(scene: Scene) -> bool:
     """Whether there are meshes, or faces of such, in which one sees other things."""
     return any(item.material.is_mirror and isinstance(item.shape, Mesh) for item in scene.items)
+
+
+def _has_mirrors(scene: Scene) -> bool:
+    """Whether there are things, or faces of such, in which one sees other things."""
+    return any(item.material.is_mirror for item in scene.items)
 
 
 def refracts(scene: Scene) -> bool:

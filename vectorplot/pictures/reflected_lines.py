@@ -368,9 +368,14 @@ def shown_lines(
     doubles = records.joined([no_doubles(), *found])
     if not len(doubles):
         return straight_lines(np.zeros((3, 0)), np.zeros((3, 0)), *(np.zeros(0, dtype=np.intp) for _ in range(3)))
-    seen = _seen_windows(shapes, _in_windows(shapes.view, panes, doubles), window, how)
-    lines = _as_seen(doubles, seen)
+    lines = shown_doubles(shapes, doubles, _in_windows(shapes.view, panes, doubles), window, how)
     return replace(lines, kind=np.full(len(lines), int(kind)))
+
+
+def shown_doubles(shapes: LineSources, doubles: Doubles, shown: Lines, window: Window | None, how: Depth) -> Lines:
+    """Doubles as far as lines on mirrors, whose items are the numbers of doubles, show them and nothing stands before
+    these, as reflected lines where they seem to be."""
+    return _as_seen(doubles, _seen_windows(shapes, shown, window, how))
 
 
 def with_more(lines: Lines, seen: Visibility, more: Lines) -> tuple[Lines, Visibility]:
