@@ -162,8 +162,14 @@ MET_OF_EXTENT = 1e-10
 """A ray or a curve meets a sheet where the two come closer than this: a thousand times what the search reaches where
 they cross, and far less than they are apart where they do not."""
 
-FERMAT_SETTLED = 1e-13
-"""A search for the point of a mirror that shows another one ends where its steps are shorter, in units of the extent."""
+FERMAT_NEAR = 1e-6
+"""Where steps of a search for the point of a mirror that shows another one are shorter, in units of the extent or
+as a part of the distance of the two, lengths of ways differ by rounding and are asked no more; two steps of Newton's lead
+from there to the end."""
+
+SHADOW_OF_LINE = 1e-7
+"""A line is seen in a curved mirror up to this part of itself before what the mirror hides: nearer, light grazes the
+mirror, and the square of this is how far off the image is."""
 
 FERMAT_RESIDUAL = 1e-10
 """A point of a mirror shows another one where the directions to eye and point differ from mirrored ones by less, as

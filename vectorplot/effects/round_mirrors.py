@@ -16,10 +16,13 @@ from vectorplot.geometry.budget import in_turn
 from vectorplot.geometry.component_arrays import cross, dot
 from vectorplot.scene.view import View
 from vectorplot.surfaces.capped_bodies import ball_of, capped_quadric_of
-from vectorplot.tolerances import FERMAT_RESIDUAL, FERMAT_SETTLED
+from vectorplot.tolerances import FERMAT_NEAR, FERMAT_RESIDUAL, SHADOW_OF_LINE
 
 STEPS = 60
 """Newton's iteration for a point of a mirror ends after so many steps, some of them halved; usually it takes six."""
+
+LAST_STEPS = 2
+"""So many steps follow when they are short: Newton squares how far off they are."""
 
 HALVINGS = 30
 """So often one step is halved until the way gets shorter."""
@@ -97,6 +100,9 @@ class RoundMirror:
         open_ = self._open(eye, weight, points.reshape(3, -1)).reshape(middle.shape) & (ends[1:] > ends[:-1])
         which, part = np.nonzero(open_.T)
         low, high = ends[part, which], ends[part + 1, which]
+        # On the border of the shadow itself light grazes the mirror, and nothing is reflected.
+        inset = SHADOW_OF_LINE * (high - low)
+        low, high = np.where(low > 0.0, low + inset, low), np.where(high < 1.0, high - inset, high)
         begin, run = start[:, which], (end - start)[:, which]
         return which, begin + low * run, np.where(high < 1.0, begin + high * run, end[:, which])
 
@@ -164,7 +170,11 @@ def shown_points(mirror: RoundMirror, view: View, points: Floats) -> tuple[Float
         some = low + np.flatnonzero(seen[low : low + AT_ONCE])
         if len(some):
             place = mirror.centre[:, None] + matmul(mirror.frame.T, _start(mirror, eye, weight, s[:, some]))
-            found[:, some], seen[some] = _shortest(mirror, view, points[:, some], place)
+            # Next to the mirror the foot of the perpendicular is nearer than that.
+            foot, on = _onto(mirror, points[:, some], points[:, some])
+            on &= dot(_towards(view, foot), _normals(mirror, foot)) > 0.0
+            on &= _way(view, foot, points[:, some]) < _way(view, place, points[:, some])
+            found[:, some], seen[some] = _shortest(mirror, view, points[:, some], np.where(on, foot, place))
     return found, seen
 
 
@@ -199,31 +209,38 @@ def _shortest(mirror: RoundMirror, view: View, points: Floats, place: Floats) ->
     place = place.copy()
     for _ in range(STEPS):
         here, there = place[:, going], points[:, going]
-        step, length = _newton(mirror, view, there, here)
-        share, moved, better = np.ones(len(going)), here, np.zeros(len(going), dtype=np.bool_)
+        step = _newton(mirror, view, there, here)
+        off = there - here
+        near = np.sqrt(dot(step, step)) <= FERMAT_NEAR * np.minimum(np.sqrt(dot(off, off)), 1.0)
+        share, moved = np.ones(len(going)), here.copy()
+        left = np.arange(len(going))
         for _ in range(HALVINGS):
-            left = np.flatnonzero(~better)
+            tried, on = _onto(mirror, here[:, left] + share[left] * step[:, left], here[:, left])
+            # Of the last steps the ways differ by rounding only.
+            shorter = _way(view, tried, there[:, left]) <= _way(view, here[:, left], there[:, left])
+            good = on & (shorter | near[left])
+            moved[:, left[good]] = tried[:, good]
+            left = left[~good]
             if not len(left):
                 break
-            tried, on = _onto(mirror, here[:, left] + share[left] * step[:, left], here[:, left])
-            shorter = on & (_way(view, tried, there[:, left]) <= _way(view, here[:, left], there[:, left]))
-            moved = moved.copy()
-            moved[:, left[shorter]] = tried[:, shorter]
-            better[left[shorter]] = True
-            share[left[~shorter]] *= 0.5
+            share[left] *= 0.5
         place[:, going] = moved
-        going = going[better & (length > FERMAT_SETTLED)]
+        stuck = np.zeros(len(going), dtype=np.bool_)
+        stuck[left] = True
+        going = going[~stuck & ~near]
         if not len(going):
             break
-    # A last step as it is: where the way differs by rounding only, its direction still does not.
-    step, _ = _newton(mirror, view, points, place)
-    last, on = _onto(mirror, place + step, place)
-    nearer = on & (_residual(mirror, view, points, last) < _residual(mirror, view, points, place))
-    place = np.where(nearer, last, place)
+    for _ in range(LAST_STEPS):
+        step = _newton(mirror, view, points, place)
+        last, on = _onto(mirror, place + step, place)
+        nearer = on & (_residual(mirror, view, points, last) < _residual(mirror, view, points, place))
+        place = np.where(nearer, last, place)
     normal = _normals(mirror, place)
     to_eye, to_point = _towards(view, place), _unit(points - place)
     good = (dot(to_eye, normal) > 0.0) & (dot(to_point, normal) > 0.0)
-    return place, good & (_residual(mirror, view, points, place) <= FERMAT_RESIDUAL)
+    # Of points next to the mirror the direction is known as well as their distance allows.
+    off = np.minimum(np.sqrt(dot(points - place, points - place)), 1.0)
+    return place, good & (_residual(mirror, view, points, place) * off <= FERMAT_RESIDUAL)
 
 
 def _towards(view: View, place: Floats) -> Floats:
@@ -266,8 +283,8 @@ def _residual(mirror: RoundMirror, view: View, points: Floats, place: Floats) ->
     return np.asarray(np.sqrt(dot(along, along)))
 
 
-def _newton(mirror: RoundMirror, view: View, points: Floats, place: Floats) -> tuple[Floats, Floats]:
-    """(3,n) steps in the planes that touch the mirror at places, and how long they are."""
+def _newton(mirror: RoundMirror, view: View, points: Floats, place: Floats) -> Floats:
+    """(3,n) steps in the planes that touch the mirror at places."""
     slopes = _slopes(mirror, place)
     size = np.sqrt(dot(slopes, slopes))
     normal = slopes / size
@@ -298,7 +315,7 @@ def _newton(mirror: RoundMirror, view: View, points: Floats, place: Floats) -> t
     whole = np.where(sound, whole, 1.0)
     x = np.where(sound, (r * u - q * v) / whole, u * off)
     y = np.where(sound, (p * v - q * u) / whole, v * off)
-    return np.asarray(x * frame[0] + y * frame[1]), np.sqrt(x * x + y * y)
+    return np.asarray(x * frame[0] + y * frame[1])
 
 
 def _onto(mirror: RoundMirror, points: Floats, place: Floats) -> tuple[Floats, Bools]:

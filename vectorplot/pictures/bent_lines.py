@@ -47,7 +47,7 @@ side, off by FINER as both are."""
 ROUNDS = 40
 """So often sides are halved at most, where it takes that."""
 
-BORDER = 1.0 / 64.0
+BORDER = 1.0 / 256.0
 """Sides beyond one end of which nothing is seen are halved until they are no longer, in units of the scene."""
 
 BLIND = 0.25
