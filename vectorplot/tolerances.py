@@ -163,8 +163,8 @@ MET_OF_EXTENT = 1e-10
 they cross, and far less than they are apart where they do not."""
 
 FERMAT_NEAR = 1e-6
-"""Where steps of a search for the point of a mirror that shows another one are shorter, in units of the extent or
-as a part of the distance of the two, lengths of ways differ by rounding and are asked no more; two steps of Newton's lead
+"""Where steps of a search for the point of a mirror that shows another one are shorter, in units of the extent or as a
+part of the distance of the two, lengths of ways differ by rounding and are asked no more; two steps of Newton's lead
 from there to the end."""
 
 SHADOW_OF_LINE = 1e-7

@@ -65,8 +65,8 @@ from vectorplot.visibility.projected_faces import ProjectedFaces, project_faces
 from vectorplot.words import LineKind, check_colour
 
 if TYPE_CHECKING:
-    from vectorplot.pictures.reflected_lines import Depth
     from vectorplot.drawing.labels import SceneLabels
+    from vectorplot.pictures.reflected_lines import Depth
 
 
 # Lines as strokes on the page.

@@ -7,7 +7,6 @@ bent_lines. A line is drawn as far as the mirror reaches and nothing stands befo
 from __future__ import annotations
 
 import warnings
-from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -15,7 +14,6 @@ import numpy as np
 from vectorplot.arrays import Floats
 from vectorplot.effects.round_mirrors import RoundMirror, met_by_sight
 from vectorplot.errors import InputWarning
-from vectorplot.geometry import records
 from vectorplot.geometry.budget import in_turn, unresolved
 from vectorplot.geometry.component_arrays import dot
 from vectorplot.geometry.mesh import Mesh
