@@ -44,6 +44,10 @@ ASIDE = 2.0
 """Lines are tested so many tolerances before where they seem to be: so they are seen on what they lie on, also from the
 side, off by FINER as both are."""
 
+FACETS = 2.0
+"""Triangles of smooth surfaces are off these by so many tolerances of chords at most, which are half of what is asked
+for: much more than where they seem to be is off, so that their contours are those of the surface."""
+
 ROUNDS = 40
 """So often sides are halved at most, where it takes that."""
 
@@ -89,9 +93,14 @@ class Things:
 
 
 def things_of(
-    shapes: LineSources, scene: Scene, how: Depth, left_out: Callable[[View, Lines], Bools] | None = None
+    shapes: LineSources,
+    scene: Scene,
+    how: Depth,
+    facets: float,
+    left_out: Callable[[View, Lines], Bools] | None = None,
 ) -> Things:
-    """What there is of a scene in the view of another one. left_out: which lines (n,) of a view are none."""
+    """What there is of a scene in the view of another one. facets: by how many tolerances triangles may be off smooth
+    surfaces; left_out: which lines (n,) of a view are none."""
     outlined = items_wanting(LineKind.CONTOUR, scene, shapes.kinds)
     bare = replace(scene, items=tuple(replace(item, lines=_no_contours(item.lines)) for item in scene.items))
     kinds = shapes.kinds - {LineKind.CONTOUR, LineKind.OUTLINE}
@@ -102,7 +111,7 @@ def things_of(
     lines = replace(sources.lines(how.tolerance, how.budget), chords=None)
     if left_out is not None:
         lines = lines.take(~left_out(view, lines))
-    off = how.tolerance * view.scale
+    off = facets * how.tolerance * view.scale
     meshes = faceted(bare, lambda item: Coarse((off,)), how.budget).scene
     view = view_of(meshes, shapes.view)
     drawn, sides = _on_sides(view, lines)

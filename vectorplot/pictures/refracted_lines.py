@@ -27,7 +27,7 @@ from vectorplot.geometry.budget import in_turn, unresolved
 from vectorplot.geometry.component_arrays import cross
 from vectorplot.geometry.projections import Projection
 from vectorplot.geometry.vectors import normalize
-from vectorplot.pictures.bent_lines import Seeming, Things, seeming, things_of
+from vectorplot.pictures.bent_lines import FACETS, Seeming, Things, seeming, things_of
 from vectorplot.pictures.line_sources import LineSources
 from vectorplot.pictures.pipeline import Pipeline
 from vectorplot.pictures.plan import plan_draw
@@ -304,7 +304,7 @@ class _Glass:
 
     def _faces(self, number: int) -> Ints:
         """The numbers in the solid of the faces in a pane."""
-        return np.searchsorted(self.solid.face, self.panes.face[self.panes.plane == number])
+        return np.asarray(np.searchsorted(self.solid.face, self.panes.face[self.panes.plane == number]))
 
     def _box(self, number: int) -> Floats:
         """(4,) the box of a pane in the image."""
@@ -340,7 +340,7 @@ class _Glass:
         def left_out(view: View, lines: Lines) -> Bools:
             return _made_by_cuts(view, lines, self.how, inwards, points)
 
-        return things_of(self.shapes, scene, self.how, left_out)
+        return things_of(self.shapes, scene, self.how, FACETS, left_out)
 
     def _behind(self, faces: Bools) -> Things:
         """What there is behind some faces of the solid, all in one plane; what lies in that is in the solid too."""
@@ -351,9 +351,10 @@ class _Glass:
 
         def left_out(view: View, lines: Lines) -> Bools:
             low = np.maximum(*(matmul(plane[:3], side) - plane[3] for side in (lines.start, lines.end)))
-            return (low <= CUT_EDGE_OF_EXTENT) | _made_by_cuts(view, lines, self.how, outwards, base)
+            in_plane: Bools = np.asarray(low <= CUT_EDGE_OF_EXTENT)
+            return in_plane | _made_by_cuts(view, lines, self.how, outwards, base)
 
-        return things_of(self.shapes, replace(scene, items=tuple(items)), self.how, left_out)
+        return things_of(self.shapes, replace(scene, items=tuple(items)), self.how, FACETS, left_out)
 
     def _through(
         self, number: int, faces: Ints, leaves: SightWays, box: Floats, behind: Things, held: Seeming

@@ -17,7 +17,7 @@ from vectorplot.errors import InputWarning
 from vectorplot.geometry.budget import in_turn, unresolved
 from vectorplot.geometry.component_arrays import dot
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.pictures.bent_lines import EVERYWHERE, Seeming, seeming, things_of
+from vectorplot.pictures.bent_lines import EVERYWHERE, FACETS, Seeming, seeming, things_of
 from vectorplot.pictures.line_sources import LineSources, traceable
 from vectorplot.pictures.pipeline import Pipeline
 from vectorplot.pictures.plan import plan_draw
@@ -29,6 +29,10 @@ from vectorplot.scene.view import View, view_of
 from vectorplot.visibility.polyhedra.lines import Lines, joined_lines, straight_lines
 from vectorplot.visibility.projected_faces import project_faces
 from vectorplot.words import LineKind
+
+
+SMALLER = 2.0
+"""Convex mirrors show things smaller than they are, at least so many times if they are farther off than it is wide."""
 
 
 def round_reflections(shapes: LineSources, window: Window | None, how: Depth) -> Lines:
@@ -61,7 +65,7 @@ def _reflections(shapes: LineSources, number: int, mirror: RoundMirror, window: 
     box, seen_in = _box(view, how.corners[number], window)
     if (box[::2] > box[1::2]).any():
         return joined_lines([])
-    shown = seeming(things_of(shapes, others, how), mirror, box, seen_in, how)
+    shown = seeming(things_of(shapes, others, how, SMALLER * FACETS), mirror, box, seen_in, how)
     doubles = _doubles(view, mirror, shown, how)
     on = _on_mirror(mirror, doubles)
     if not len(on):
