@@ -39,7 +39,7 @@ def main(folder: Path) -> None:
     scene = vp.Scene((floor, ball, column, *things, wall, *bars, *sills), title="A mirror ball")
     camera = vp.Camera((0.6, -6.6, 3.0), (0.4, 0.5, 1.2), fov_deg=42)
     page, pens = vp.Page(150, 110, 5), "reflected=0.13:#2f6fb0"
-    drawing = vp.draw(scene, camera, page=page, fit=False, pens=pens, tolerance_mm=0.1)
+    drawing = vp.draw(scene, camera, page=page, fit=False, pens=pens, tolerance_mm=0.08)
     vp.save(drawing, folder / "mirror_ball.svg")
 
     # Where the ball shows a corner of the chest, both rays have one angle with the normal.

@@ -16,7 +16,7 @@ from vectorplot.geometry.budget import in_turn
 from vectorplot.geometry.component_arrays import cross, dot
 from vectorplot.scene.view import View
 from vectorplot.surfaces.capped_bodies import ball_of, capped_quadric_of
-from vectorplot.tolerances import FERMAT_NEAR, FERMAT_RESIDUAL, SHADOW_OF_LINE
+from vectorplot.tolerances import FERMAT_NEAR, FERMAT_RESIDUAL, LEAST_DIVISOR, SHADOW_OF_LINE
 
 STEPS = 60
 """Newton's iteration for a point of a mirror ends after so many steps, some of them halved; usually it takes six."""
@@ -182,7 +182,7 @@ def _start(mirror: RoundMirror, eye: Floats, weight: float, points: Floats) -> F
     """(3,n) places on a mirror that both the eye and points (3,n) see, all as s."""
     way = eye - points if weight else np.broadcast_to(eye, points.shape)
     flat = way if mirror.is_round else way * [[1.0], [1.0], [0.0]]
-    share = -dot(points, flat) / np.maximum(dot(flat, flat), np.finfo(np.float64).tiny)
+    share = -dot(points, flat) / np.maximum(dot(flat, flat), LEAST_DIVISOR)
     near = points + np.clip(share, 0.0, 1.0 if weight else np.inf) * way
     if mirror.is_round:
         return np.asarray(near / np.sqrt(dot(near, near)))
@@ -292,7 +292,7 @@ def _newton(mirror: RoundMirror, view: View, points: Floats, place: Floats) -> F
     one = _unit(cross(axis, normal))
     frame = (one, cross(normal, one))
     to_eye, to_point = _towards(view, place), points - place
-    off = np.maximum(np.sqrt(dot(to_point, to_point)), np.finfo(np.float64).tiny)
+    off = np.maximum(np.sqrt(dot(to_point, to_point)), LEAST_DIVISOR)
     to_point = to_point / off
     far = np.inf if view.eye is None else np.sqrt(dot(view.eye[:, None] - place, view.eye[:, None] - place))
     both = to_eye + to_point

@@ -192,7 +192,7 @@ def bent_faces(things: Things, rays: BentRays, box: Floats, how: Depth) -> Trian
         vertices, triangles = found.vertices, found.triangles
         edges, sides, _ = edges_of(triangles, len(vertices.seen))
         key = keys_of(*edges.T)
-        order = np.argsort(key)
+        order = np.argsort(key, kind="stable")
         place = np.minimum(np.searchsorted(known, key), max(len(known) - 1, 0))
         new = np.flatnonzero(known[place] != key) if len(known) else np.arange(len(key))
         middle = Vertices.of(view, rays, 0.5 * (vertices.points[:, edges[new, 0]] + vertices.points[:, edges[new, 1]]))

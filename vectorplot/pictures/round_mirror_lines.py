@@ -30,7 +30,6 @@ from vectorplot.visibility.polyhedra.lines import Lines, joined_lines, straight_
 from vectorplot.visibility.projected_faces import project_faces
 from vectorplot.words import LineKind
 
-
 SMALLER = 2.0
 """Convex mirrors show things smaller than they are, at least so many times if they are farther off than it is wide."""
 
