@@ -164,8 +164,8 @@ def draw(
         Lines end so many mm beside what is in front of them.
     reflections : int
         How often lines are followed from plane mirror to plane mirror, 0 to 8: with 0 mirrors are plain faces, with 1
-        they show what stands before them, with 2 mirrors that they show do so too. Such lines have the kind
-        `reflected`.
+        they show what stands before them, with 2 mirrors that they show do so too. Balls and other round mirrors
+        show lines too, but none that others show. Such lines have the kind `reflected`.
     hatch : Hatching or Stippling, optional
         How visible faces are hatched, or stippled, where their items do not say it themselves; not at all where None.
     layers : str, optional
