@@ -57,9 +57,6 @@ BORDER = 1.0 / 256.0
 BLIND = 0.25
 """The same of sides where nothing is seen, at their ends or in their middle."""
 
-EVERYWHERE = np.array([-np.inf, np.inf, -np.inf, np.inf])
-"""The window of an image without borders: smallest and largest x, smallest and largest y."""
-
 
 class BentRays(Protocol):
     """Sight rays that are bent or reflected on their way: where they show things."""
@@ -245,16 +242,11 @@ def _looked_at(view: View, vertices: Vertices, triangles: Ints, off: Floats, box
     """(t,) which triangles may be seen in a box (4,) of the image; off (t,): how far they are off at most."""
     x, y = view.image_of(vertices.seeming)[:, triangles]
     seen = vertices.seen[triangles]
-    low, high = (
-        (np.where(seen, x, np.inf).min(axis=1), np.where(seen, y, np.inf).min(axis=1)),
-        (
-            np.where(seen, x, -np.inf).max(axis=1),
-            np.where(seen, y, -np.inf).max(axis=1),
-        ),
-    )
     margin = np.where(seen.all(axis=1), off, 0.0)
-    within = (high[0] + margin >= box[0]) & (low[0] - margin <= box[1])
-    within &= (high[1] + margin >= box[2]) & (low[1] - margin <= box[3])
+    within = np.ones(len(off), dtype=np.bool_)
+    for side, least, most in ((x, box[0], box[1]), (y, box[2], box[3])):
+        within &= np.where(seen, side, -np.inf).max(axis=1) + margin >= least
+        within &= np.where(seen, side, np.inf).min(axis=1) - margin <= most
     return np.asarray(within | ~seen.all(axis=1) | np.isinf(off))
 
 

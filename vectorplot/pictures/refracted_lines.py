@@ -295,7 +295,7 @@ class _Glass:
             for number, leaves, box in beams[: max(left, 0)] if len(behind) else ():
                 yield self._through(number, np.flatnonzero(faces == back), leaves, box, behind, shown[number])
             left -= len(beams) if len(behind) else 0
-        if left < 0:
+        if left < 0 or most <= len(panes):
             _tell_what_is_left()
 
     @property

@@ -17,7 +17,7 @@ from vectorplot.errors import InputWarning
 from vectorplot.geometry.budget import in_turn, unresolved
 from vectorplot.geometry.component_arrays import dot
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.pictures.bent_lines import EVERYWHERE, FACETS, Seeming, seeming, things_of
+from vectorplot.pictures.bent_lines import FACETS, Seeming, seeming, things_of
 from vectorplot.pictures.line_sources import LineSources, traceable
 from vectorplot.pictures.pipeline import Pipeline
 from vectorplot.pictures.plan import plan_draw
@@ -32,6 +32,9 @@ from vectorplot.words import LineKind
 
 SMALLER = 2.0
 """Convex mirrors show things smaller than they are, at least so many times if they are farther off than it is wide."""
+
+EVERYWHERE = np.array([-np.inf, np.inf, -np.inf, np.inf])
+"""The window of an image without borders: smallest and largest x, smallest and largest y."""
 
 
 def round_reflections(shapes: LineSources, window: Window | None, how: Depth) -> Lines:
