@@ -239,15 +239,16 @@ def _off(start: Vertices, middle: Vertices, end: Vertices) -> Floats:
 
 
 def _looked_at(view: View, vertices: Vertices, triangles: Ints, off: Floats, box: Floats) -> Bools:
-    """(t,) which triangles may be seen in a box (4,) of the image; off (t,): how far they are off at most."""
+    """(t,) which triangles may be seen in a box (4,) of the image; off (t,): how far they are off at most. Of those
+    that are seen only partly, the rest is taken to be no farther away than the box is wide."""
     x, y = view.image_of(vertices.seeming)[:, triangles]
     seen = vertices.seen[triangles]
-    margin = np.where(seen.all(axis=1), off, 0.0)
+    margin = np.minimum(np.where(seen.all(axis=1), off, np.inf), max(box[1] - box[0], box[3] - box[2]))
     within = np.ones(len(off), dtype=np.bool_)
     for side, least, most in ((x, box[0], box[1]), (y, box[2], box[3])):
         within &= np.where(seen, side, -np.inf).max(axis=1) + margin >= least
         within &= np.where(seen, side, np.inf).min(axis=1) - margin <= most
-    return np.asarray(within | ~seen.all(axis=1) | np.isinf(off))
+    return np.asarray(within | ~seen.any(axis=1))
 
 
 def _halved(view: View, rays: BentRays, found: Triangles, edges: Ints, sides: Ints, which: Ints) -> Triangles:
