@@ -282,7 +282,8 @@ def by_mirror(seed: int, room: Room, point: np.ndarray) -> np.ndarray | None:
     start = np.array([np.arctan2(middle[1], middle[0]), middle[2] if seed % 3 == 2 else np.arcsin(middle[2])])
     place = on(way_of_light(lambda x: [eye, on(x), point], [1.0, 1.0], start))
     normal, one, two = unit(SHAPES[seed % 3][2](place)), unit(eye - place), unit(point - place)
-    if min(normal @ one, normal @ two) <= 1e-3 or np.linalg.norm(np.cross(one + two, normal)) > 1e-4:
+    # Next to the outline of the mirror lines would be in it.
+    if min(normal @ one, normal @ two) <= GRAZING / 2.0 or np.linalg.norm(np.cross(one + two, normal)) > 1e-4:
         return None
     if seed % 3 == 2 and abs(place[2]) > 1.49:
         return None

@@ -63,6 +63,11 @@ class RoundMirror:
         inverse = rows / float((frame[0] * rows[:, 0]).sum())
         return cls(view.points_of(centre[None])[:, 0], frame, inverse, form, low, high, is_round)
 
+    @property
+    def radius_of_section(self) -> float:
+        """The smaller semi-axis of the largest section across the axis."""
+        return float(np.sqrt((self.frame[:2] * self.frame[:2]).sum(axis=1)).min())
+
     def local(self, points: Floats) -> Floats:
         """(3,n) s of points (3,n)."""
         return np.asarray(matmul(self.inverse.T, points - self.centre[:, None]))
@@ -262,6 +267,11 @@ def _way(view: View, place: Floats, points: Floats) -> Floats:
         return np.asarray(np.sqrt(dot(off, off)) - place[2])
     to_eye = view.eye[:, None] - place
     return np.asarray(np.sqrt(dot(off, off)) + np.sqrt(dot(to_eye, to_eye)))
+
+
+def cosines_at(mirror: RoundMirror, view: View, place: Floats) -> Floats:
+    """(n,) the cosines of the angles between normals at places (3,n) of a mirror and the ways to the eye."""
+    return np.asarray(dot(_towards(view, place), _normals(mirror, place)))
 
 
 def _slopes(mirror: RoundMirror, place: Floats) -> Floats:

@@ -12,7 +12,7 @@ from dataclasses import replace
 import numpy as np
 
 from vectorplot.arrays import Floats
-from vectorplot.effects.round_mirrors import RoundMirror, met_by_sight
+from vectorplot.effects.round_mirrors import RoundMirror, cosines_at, met_by_sight
 from vectorplot.errors import InputWarning
 from vectorplot.geometry.budget import in_turn, unresolved
 from vectorplot.geometry.component_arrays import dot
@@ -29,6 +29,9 @@ from vectorplot.scene.view import View, view_of
 from vectorplot.visibility.polyhedra.lines import Lines, joined_lines, straight_lines
 from vectorplot.visibility.projected_faces import project_faces
 from vectorplot.words import LineKind
+
+OUTLINE = 4.0
+"""What is no more tolerances of chords inside of the outline of a mirror is left out: it would be in the outline."""
 
 SMALLER = 2.0
 """Convex mirrors show things smaller than they are, at least so many times if they are farther off than it is wide."""
@@ -107,7 +110,10 @@ def _doubles(view: View, mirror: RoundMirror, shown: Seeming, how: Depth) -> Dou
     here, there = (met_by_sight(mirror, view, side) for side in (start, end))
     nearer = np.stack([_part_of_way(view, *ends) for ends in ((here, start), (there, end))])
     none = np.zeros(len(seen), dtype=np.intp)
-    return Doubles(start, end, here, there, nearer, some.item, some.smooth, seen.hidden_by, none)
+    found = Doubles(start, end, here, there, nearer, some.item, some.smooth, seen.hidden_by, none)
+    # What is seen a cosine c from grazing is half of c squared radii inside of the outline.
+    inside = [0.5 * mirror.radius_of_section * cosines_at(mirror, view, side) ** 2 for side in (here, there)]
+    return found.take(np.maximum(*inside) > OUTLINE * how.tolerance)
 
 
 def _part_of_way(view: View, near: Floats, far: Floats) -> Floats:
