@@ -29,7 +29,7 @@ POST = vp.Item("POST", box((1.5, -2.0, -0.5), (2.0, -1.5, 1.0)))
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", several(range(4), long=range(40)))
 def test_what_a_round_mirror_shows_is_drawn_and_nothing_else(seed):
-    wrong, seen = missing_in_mirror(seed, 40)
+    wrong, seen = missing_in_mirror(seed, 60)
     assert wrong == 0 and seen > 5
     wrong, looked_at = unfounded_in_mirror(seed, 150)
     assert wrong == 0 and looked_at > 10
