@@ -43,7 +43,7 @@ LOOK_AT = {
     "pencil": "A cone of order 45 on a cylinder, cut with a hexagonal prism: the sides end in arcs of hyperbolas.",
     "plate": "Rims of holes are circles; through the large one their other side is seen, through the small ones not.",
     "plotted_town": "Walls, shadows and panes of one pen: tone by hatching, windows by grid and ring, a street name.",
-    "pool": "The floor seems raised by the water, and the pole bent; drawn, both are where they are.",
+    "pool": "The floor seems raised by the water, and the pole bent, in lines as well as painted.",
     "pyramid": "The book's example of an object with a convex outline; it is open above, and one looks inside.",
     "removed_faces": "Two walls of the house and the lid of the crate are gone: one looks in, and through.",
     "revolutions": "The same meridian solid, hollow with a bottom, and cut off after three quarters of a turn.",

@@ -174,6 +174,19 @@ MET_OF_EXTENT = 1e-10
 """A ray or a curve meets a sheet where the two come closer than this: a thousand times what the search reaches where
 they cross, and far less than they are apart where they do not."""
 
+FERMAT_NEAR = 1e-6
+"""Where steps of a search for the point of a mirror that shows another one are shorter, in units of the extent or as a
+part of the distance of the two, lengths of ways differ by rounding and are asked no more; two steps of Newton's lead
+from there to the end."""
+
+SHADOW_OF_LINE = 1e-7
+"""A line is seen in a curved mirror up to this part of itself before what the mirror hides: nearer, light grazes the
+mirror, and the square of this is how far off the image is."""
+
+FERMAT_RESIDUAL = 1e-10
+"""A point of a mirror shows another one where the directions to eye and point differ from mirrored ones by less, as
+unit vectors: a thousand times what the search reaches."""
+
 NEARLY_MET = 1e-7
 """A search for a meeting goes on from what is nearer than this after its first steps; Newton squares it in the next."""
 

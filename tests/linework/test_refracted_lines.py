@@ -3,13 +3,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from scipy.spatial import cKDTree
+from support.bent_rays import missing_in_glass, unfounded_in_glass
 from support.effort import several
 from support.glass_rays import missing, unfounded
-from support.mirror_rays import on_page, strokes_of
+from support.mirror_rays import nearest, on_page, strokes_of
 
 import vectorplot as vp
 from vectorplot.backends.json import json_bytes
-from vectorplot.effects import refracted
+from vectorplot.effects import refracted, seen_in_surface
 from vectorplot.surfaces import Sphere
 from vectorplot.testing.shapes import box
 
@@ -74,15 +75,71 @@ def test_a_refraction_of_one_is_none():
     assert json_bytes(one) == json_bytes(other)
 
 
-def test_perspectives_say_that_they_do_not_bend_lines():
+PERSPECTIVE = replace(CAMERA, parallel=False)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", several(range(3), long=range(30)))
+def test_what_bent_rays_of_a_perspective_see_is_drawn_and_nothing_else(seed):
+    wrong, seen = missing_in_glass(seed, 12)
+    assert wrong == 0 and seen > 0
+    wrong, looked_at = unfounded_in_glass(seed, 100)
+    assert wrong == 0 and looked_at > 80
+
+
+def test_perspective_points_under_water_are_seen_where_snells_law_says():
+    drawing = vp.draw(basin(STICK), PERSPECTIVE, page=SQUARE, curves="polyline")
+    strokes, items = strokes_of(drawing, "refracted")
+    corners = np.array([(x, y, -1.5) for x in (-0.1, 0.1) for y in (-0.1, 0.1)])
+    entries = seen_in_surface(PERSPECTIVE.eye, corners, (0, 0, 1), (0, 0, 0), 1.333)
+    off, _ = cKDTree(strokes[items == 1].reshape(-1, 2)).query(on_page(drawing, entries))
+    assert (off < 1e-6).sum() >= 3
+
+
+def test_a_straight_line_under_water_is_a_smooth_curve_in_a_perspective():
+    rail = vp.Item("RAIL", box((-2.9, 0.0, -1.9), (2.9, 0.05, -1.85)))
+    drawing = vp.draw(basin(rail), replace(PERSPECTIVE, eye=(1, -4, 3)), page=SQUARE, tolerance_mm=0.01)
+    world = np.stack([np.linspace(-2.9, 2.9, 400), np.full(400, 0.0), np.full(400, -1.85)], axis=1)
+    entries = seen_in_surface((1, -4, 3), world, (0, 0, 1), (0, 0, 0), 1.333)
+    through_top = (np.abs(entries[:, :2]) < 2.99).all(axis=1)
+    layer = next(layer for layer in drawing.layers if layer.name == "refracted")
+    assert nearest(strokes_of(drawing, "refracted")[0], on_page(drawing, entries[through_top])).max() < 0.05
+    # Joined and fitted, not left in chords.
+    assert sum(len(strokes) for strokes in layer.strokes) < 40
+
+
+def test_a_refraction_of_one_is_none_in_a_perspective():
+    clear = vp.Material("transparent")
+    plain = basin(STICK)
+    plain = replace(plain, items=(replace(plain.items[0], material=clear), STICK))
+    one, other = (vp.draw(scene, PERSPECTIVE, page=SQUARE) for scene in (basin(STICK, refraction=1.0), plain))
+    assert json_bytes(one) == json_bytes(other)
+
+
+def test_what_refracts_is_a_stage_in_perspectives_too():
     told = []
-    eye = replace(CAMERA, parallel=False)
-    drawing = vp.draw(basin(STICK), eye, page=SQUARE, explain=lambda report: told.append((report.name, report.why)))
-    assert not len(strokes_of(drawing, "refracted")[0])
-    assert any(name == "left out" and "refraction" in why for name, why in told)
-    told.clear()
-    vp.draw(basin(STICK), CAMERA, page=SQUARE, explain=lambda report: told.append((report.name, report.why)))
-    assert "refracted lines" in {name for name, _ in told} and "left out" not in {name for name, _ in told}
+    for eye in (PERSPECTIVE, CAMERA):
+        vp.draw(basin(STICK), eye, page=SQUARE, explain=lambda report: told.append(report.name))
+    assert told.count("refracted lines") == 2 and "left out" not in told
+
+
+def test_lines_in_water_that_are_hidden_are_dashed():
+    drawing = vp.draw(basin(STICK), PERSPECTIVE, page=SQUARE, hidden="dashed")
+    layer = next(layer for layer in drawing.layers if layer.name == "hidden")
+    assert sum(map(len, layer.strokes))
+
+
+@pytest.mark.slow
+def test_a_ball_in_water_hides_in_a_perspective_what_is_behind_it():
+    ball = vp.Item("BALL", Sphere(0.6)).moved(0, 0, -1.2)
+    behind = vp.Item("POST", box((-0.05, 1.0, -2.0), (0.05, 1.1, -0.1)))
+    eye = replace(PERSPECTIVE, eye=(0.0, -9.0, 4.0))
+    alone, both = (
+        strokes_of(vp.draw(basin(*things), eye, page=SQUARE, fit=False), "refracted")
+        for things in ((behind,), (behind, ball))
+    )
+    posts = [np.hypot(*(s[i == 1][:, 1] - s[i == 1][:, 0]).T).sum() for s, i in (alone, both)]
+    assert 0.05 * posts[0] < posts[1] < 0.9 * posts[0]
 
 
 def test_straight_lines_give_way_to_bent_ones():
@@ -95,20 +152,22 @@ def test_straight_lines_give_way_to_bent_ones():
             assert not len(points) or cKDTree(points).query(straight)[0].min() > 0.5
 
 
-def test_lines_over_a_painting_are_bent_too():
+@pytest.mark.parametrize("camera", [CAMERA, PERSPECTIVE], ids=["parallel", "perspective"])
+def test_lines_over_a_painting_are_bent_too(camera):
     told = {"page": SQUARE, "fit": False, "lines": "contour,crease"}
-    one, other = (strokes_of(verb(basin(STICK), CAMERA, **told), "refracted")[0] for verb in (vp.draw, vp.paint))
+    one, other = (strokes_of(verb(basin(STICK), camera, **told), "refracted")[0] for verb in (vp.draw, vp.paint))
     one, other = one.reshape(-1, 2), other.reshape(-1, 2)
-    assert len(one) and cKDTree(one).query(other)[0].max() < 1e-6
+    assert len(one) and cKDTree(one).query(other)[0].max() < (1e-6 if camera.parallel else 0.05)
 
 
-def test_at_any_size_and_place_water_bends_alike():
-    shown = strokes_of(vp.draw(basin(STICK), CAMERA, page=SQUARE), "refracted")[0].reshape(-1, 2)
+@pytest.mark.parametrize("camera", [CAMERA, PERSPECTIVE], ids=["parallel", "perspective"])
+def test_at_any_size_and_place_water_bends_alike(camera):
+    shown = strokes_of(vp.draw(basin(STICK), camera, page=SQUARE), "refracted")[0].reshape(-1, 2)
     for scale, shift in ((1e-6, 0.0), (1e6, 0.0), (1.0, 1e5)):
         matrix = np.diag([scale, scale, scale, 1.0])
         matrix[:3, 3] = shift
         scene = basin(STICK)
         moved = replace(scene, items=tuple(item.transformed(matrix) for item in scene.items))
-        eye, target = (tuple((scale * np.array(one) + shift).tolist()) for one in (CAMERA.eye, CAMERA.target))
-        there = vp.draw(moved, vp.Camera(eye, target, parallel=True), page=SQUARE)
+        eye, target = (tuple((scale * np.array(one) + shift).tolist()) for one in (camera.eye, camera.target))
+        there = vp.draw(moved, vp.Camera(eye, target, parallel=camera.parallel), page=SQUARE)
         assert cKDTree(shown).query(strokes_of(there, "refracted")[0].reshape(-1, 2))[0].max() < 1e-4

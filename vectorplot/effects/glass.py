@@ -169,15 +169,20 @@ def soup_in_beams(view: View, solid: Solid, front: Ints, windows: Floats, rest: 
     """The beams that enter by faces front (n,), seen in windows (4,n), rectangles of the image, and what they may meet
     of all the rest; in batches."""
     found = []
-    first, back = _meeting(view, solid, front)
-    for some in _batches(np.diff(solid.offsets)[back] ** 2 * RAYS):
-        beams = _beams(view, solid, front, windows, first[some], back[some])
+    for beams in beams_of(view, solid, front, windows):
         soup = joined_soups(
             [_cut(rest, beams.bundles, batch, view.tolerance) for batch in _batches(_of(len(beams), rest))]
         )
         if len(soup):
             found.append((beams, soup))
     return found
+
+
+def beams_of(view: View, solid: Solid, front: Ints, windows: Floats) -> Iterator[Beams]:
+    """The beams that enter by faces front (n,), seen in windows (4,n), in batches."""
+    first, back = _meeting(view, solid, front)
+    for some in _batches(np.diff(solid.offsets)[back] ** 2 * RAYS):
+        yield _beams(view, solid, front, windows, first[some], back[some])
 
 
 def totally_reflecting(view: View, solid: Solid, front: Ints, windows: Floats) -> tuple[Ints, Ints]:

@@ -14,6 +14,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.geometry import polylines, ragged, records
 from vectorplot.geometry.budget import in_turn
+from vectorplot.geometry.chord_refinement import bisected
 from vectorplot.geometry.component_arrays import dot
 from vectorplot.geometry.elementary import arcsin, arctan, tan
 from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, LineElements
@@ -332,6 +333,13 @@ POINTS_AT_ONCE = 1 << 15
 """Points whose rays are looked for at once: few enough for the processor's cache."""
 
 
+PLACES = 8
+"""At so many places on a segment, less one, it is looked whether it is seen behind two surfaces."""
+
+SEEN_HALVINGS = 40
+"""So often the way between two of them is halved until it is known where it is seen no more."""
+
+
 @dataclass(frozen=True, eq=False)
 class SightWays:
     """Ways of sight rays through plane surfaces, one after the other: normal, point (3,s,w) of s surfaces on w ways,
@@ -351,6 +359,47 @@ class SightWays:
         if len(self) == 1:
             return self
         return replace(self, normal=self.normal[:, :, way], point=self.point[:, :, way])
+
+    def with_guides_of(self, ways: Ints) -> SightWays:
+        """A single way, that of the first of some (k,) that are the same but for their guides, which are those of
+        all."""
+        one = slice(ways[0], ways[0] + 1)
+        guides = self.guides[:, ways].reshape(2, 1, -1)
+        return replace(self, normal=self.normal[:, :, one], point=self.point[:, :, one], guides=guides)
+
+    def virtual(self, view: View, points: Floats, way: Ints) -> tuple[Floats, Bools]:
+        """As BentRays."""
+        return virtual_points(view, self, points, way)
+
+    def seen_parts(self, view: View, start: Floats, end: Floats) -> tuple[Ints, Floats, Floats]:
+        """As BentRays. All behind one surface is seen; where rays leave by another one, ends of what is seen are found
+        by halving between places on the way."""
+        every = np.arange(start.shape[1])
+        if len(self.constant) == 1:
+            return every, start, end
+        shares = np.linspace(0.0, 1.0, PLACES + 1)
+        points = start[..., None] + shares * (end - start)[..., None]
+        _, seen = self.virtual(view, points.reshape(3, -1), np.zeros(points[0].size, dtype=np.intp))
+        seen = seen.reshape(-1, PLACES + 1)
+        which, place = np.nonzero(seen[:, 1:] | seen[:, :-1])
+        low, high = shares[place], shares[place + 1]
+        at_low, at_high = seen[which, place], seen[which, place + 1]
+        ends = np.flatnonzero(at_low != at_high)
+        base, run = start[:, which[ends]], (end - start)[:, which[ends]]
+        near, far = (
+            np.where(at_low[ends], one, other) for one, other in ((low[ends], high[ends]), (high[ends], low[ends]))
+        )
+
+        def goes_on(way: Ints, share: Floats) -> Bools:
+            part = near[way] + share * (far - near)[way]
+            none = np.zeros(len(way), dtype=np.intp)
+            return self.virtual(view, base[:, way] + part * run[:, way], none)[1]
+
+        last, _ = bisected(goes_on, np.zeros(len(ends)), np.ones(len(ends)), SEEN_HALVINGS)
+        until = near + last * (far - near)
+        low[ends], high[ends] = np.minimum(near, until), np.maximum(near, until)
+        begin, run = start[:, which], (end - start)[:, which]
+        return which, begin + low * run, np.where(high < 1.0, begin + high * run, end[:, which])
 
 
 @dataclass(frozen=True, eq=False)

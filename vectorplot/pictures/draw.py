@@ -27,7 +27,7 @@ from vectorplot.pictures.lines import (
 )
 from vectorplot.pictures.options import check_letters, check_look, check_options
 from vectorplot.pictures.pipeline import Pipeline, StageReport, stoppable
-from vectorplot.pictures.plan import accuracy_of_draw, plan_arcs, plan_draw, plan_hatching, refracts, with_accuracy
+from vectorplot.pictures.plan import accuracy_of_draw, plan_arcs, plan_draw, plan_hatching, with_accuracy
 from vectorplot.pictures.prepared_scene import Legend, Paper, prepared_scene
 from vectorplot.pictures.promises import DRAWING, promised
 from vectorplot.scene.added_lines import with_default_lines
@@ -164,8 +164,8 @@ def draw(
         Lines end so many mm beside what is in front of them.
     reflections : int
         How often lines are followed from plane mirror to plane mirror, 0 to 8: with 0 mirrors are plain faces, with 1
-        they show what stands before them, with 2 mirrors that they show do so too. Such lines have the kind
-        `reflected`.
+        they show what stands before them, with 2 mirrors that they show do so too. Balls and other round mirrors
+        show lines too, but none that others show. Such lines have the kind `reflected`.
     hatch : Hatching or Stippling, optional
         How visible faces are hatched, or stippled, where their items do not say it themselves; not at all where None.
     layers : str, optional
@@ -293,17 +293,13 @@ def draw(
         scale_pens=scale_pens,
         shortest_mm=shortest_mm,
     )
-    planned = plan_draw(seen, kinds, hidden, halo_mm, finish.look, reflections, prepared.camera.parallel)
+    planned = plan_draw(seen, kinds, hidden, halo_mm, finish.look, reflections, bends=True)
     planned = plan_hatching(seen, hatch, planned) if finish.plain else planned
     planned = plan_arcs(planned) if curves == "arcs" else planned
     smooth = curves != "polyline" and any(not isinstance(item.shape, Mesh) for item in seen.items)
     pipeline = Pipeline(with_accuracy(planned, accuracy_of_draw(tolerance_mm, smooth)), explain, progress, threads)
     view = pipeline.run("look", look, seen, prepared.camera)
     faces = pipeline.run("faces", project_faces, view)
-    if finish.plain and not prepared.camera.parallel and refracts(seen):
-        pipeline.tell(
-            "left out", "refraction, which bends lines in parallel pictures only; the verb paint bends faces", 0
-        )
     shapes = traceable(pipeline, seen, view, faces, kinds, crease_angle_deg, allowed)
     placed = placed_lines(shapes, sheet, fit, tolerance_mm, allowed, reflections, hidden)
     placement = prepared.around(placed.placement, view, sheet)

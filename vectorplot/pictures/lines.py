@@ -66,6 +66,7 @@ from vectorplot.words import LineKind, check_colour
 
 if TYPE_CHECKING:
     from vectorplot.drawing.labels import SceneLabels
+    from vectorplot.pictures.reflected_lines import Depth
 
 
 # Lines as strokes on the page.
@@ -439,20 +440,35 @@ def seen_by_any_way(
     mirrors, glass = map(shapes.pipeline.calls_for, ("reflected lines", "refracted lines"))
     if not mirrors and not glass:
         return lines, shapes.seen(lines)
-    from vectorplot.pictures.reflected_lines import Depth, corners_of, with_reflections
+    from vectorplot.pictures.reflected_lines import Depth, corners_of
 
     boxes, angle = corners_of(shapes.scene), shapes.crease_angle_deg
     how = Depth(shapes.scene, boxes, reflections, budget.mirrors, hidden, angle, tolerance, budget)
     window = None if place is None else place.window
     if not glass:
-        return shapes.pipeline.run("reflected lines", with_reflections, shapes, lines, shapes.seen(lines), window, how)
+        return shapes.pipeline.run("reflected lines", _with_mirrors, shapes, lines, shapes.seen(lines), window, how)
     from vectorplot.pictures.refracted_lines import beside_glass, with_refractions
 
     lines = beside_glass(shapes, lines)
     seen = shapes.seen(lines)
     if mirrors:
-        lines, seen = shapes.pipeline.run("reflected lines", with_reflections, shapes, lines, seen, window, how)
+        lines, seen = shapes.pipeline.run("reflected lines", _with_mirrors, shapes, lines, seen, window, how)
     return shapes.pipeline.run("refracted lines", with_refractions, shapes, lines, seen, window, how)
+
+
+def _with_mirrors(
+    shapes: LineSources, lines: Lines, seen: Visibility, window: tuple[Floats, Floats] | None, how: Depth
+) -> tuple[Lines, Visibility]:
+    """Lines, with what is seen of them, and those that plane and curved mirrors show."""
+    from vectorplot.pictures.reflected_lines import with_more, with_reflections
+
+    more = None
+    if any(item.material.is_mirror and not isinstance(item.shape, Mesh) for item in shapes.scene.items):
+        from vectorplot.pictures.round_mirror_lines import round_reflections
+
+        more = round_reflections(shapes, window, how)
+    lines, seen = with_reflections(shapes, lines, seen, window, how)
+    return (lines, seen) if more is None else with_more(lines, seen, more)
 
 
 # The lines of a scene where its picture has found its place on the page.
@@ -657,7 +673,7 @@ def lines_in_place(
     draw.
     """
     told = None if progress is None else lambda stage, fraction: progress(fraction)
-    stages = plan_draw(scene, kinds, "none", 0.0, reflections=reflections, parallel=bends and view.eye is None)
+    stages = plan_draw(scene, kinds, "none", 0.0, reflections=reflections, bends=bends)
     pipeline = Pipeline(stages, None, told)
     allowed, tolerance = budget_of(budget), 0.5 * tolerance_mm / placement.scale
     shapes = traceable(pipeline, scene, view, faces, kinds, crease_angle_deg, allowed)

@@ -81,9 +81,9 @@ def plan_draw(
     halo_mm: float,
     style: str = "plain",
     reflections: int = 0,
-    parallel: bool = False,
+    bends: bool = False,
 ) -> tuple[Stage, ...]:
-    """The stages that drawing this scene calls for, in their order; nothing else runs. parallel: the projection."""
+    """The stages that drawing this scene calls for, in their order; nothing else runs. bends: whether glass does."""
     wanted = kinds.union(*(map(LineKind.from_word, item.lines) for item in scene.items if item.lines is not None))
     stages = [
         Stage("look", "the scene in the camera's axes, in the unit box"),
@@ -129,10 +129,10 @@ def plan_draw(
         stages.append(Stage("visible lines", "hidden lines are left out"))
     else:
         stages.append(Stage("counted lines", f"hidden lines are drawn {hidden}"))
-    if reflections and style == "plain" and wanted - {LineKind.OUTLINE} and has_plane_mirrors(scene):
+    if reflections and style == "plain" and wanted - {LineKind.OUTLINE} and _has_mirrors(scene):
         why = f"items are mirrors: lines that one sees in them{_deep(reflections)}"
         stages.append(Stage("reflected lines", why))
-    if parallel and style == "plain" and wanted - {LineKind.OUTLINE} and refracts(scene):
+    if bends and style == "plain" and wanted - {LineKind.OUTLINE} and refracts(scene):
         stages.append(Stage("refracted lines", "items refract light: lines in them and behind them"))
     if halo_mm > 0.0:
         stages.append(Stage("halo", f"lines end {halo_mm:g} mm beside what is in front of them"))
@@ -330,6 +330,11 @@ def _deep(reflections: int) -> str:
 def has_plane_mirrors(scene: Scene) -> bool:
     """Whether there are meshes, or faces of such, in which one sees other things."""
     return any(item.material.is_mirror and isinstance(item.shape, Mesh) for item in scene.items)
+
+
+def _has_mirrors(scene: Scene) -> bool:
+    """Whether there are things, or faces of such, in which one sees other things."""
+    return any(item.material.is_mirror for item in scene.items)
 
 
 def refracts(scene: Scene) -> bool:

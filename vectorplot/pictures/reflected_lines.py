@@ -262,7 +262,7 @@ def doubles_of(
     """What is seen of the lines of the view behind a pane, where it seems to be, see Beyond."""
     start, end = map(moved, lines.ends(behind, seen.segment, seen.low, seen.high))
     some = lines.take(seen.segment)
-    (here, near), (there, far) = (_on_plane(view, panes, number, side) for side in (start, end))
+    (here, near), (there, far) = (on_plane(view, panes, number, side) for side in (start, end))
     nearer, pane = np.stack([near, far]), np.full(len(seen), number)
     found = Doubles(start, end, here, there, nearer, some.item, some.smooth, seen.hidden_by, pane)
     # What lies in the plane of the pane is seen as itself.
@@ -270,7 +270,7 @@ def doubles_of(
     return found.take(off > CUT_EDGE_OF_EXTENT)
 
 
-def _on_plane(view: View, mirrors: Mirrors, number: int, points: Floats) -> tuple[Floats, Floats]:
+def on_plane(view: View, mirrors: Mirrors, number: int, points: Floats) -> tuple[Floats, Floats]:
     """(3,n) where the rays to points (3,n) behind a mirror meet its plane, and after which part of their way (n,)."""
     height = np.minimum(mirrors.heights(number, points), 0.0)
     if view.eye is None:
@@ -368,9 +368,14 @@ def shown_lines(
     doubles = records.joined([no_doubles(), *found])
     if not len(doubles):
         return straight_lines(np.zeros((3, 0)), np.zeros((3, 0)), *(np.zeros(0, dtype=np.intp) for _ in range(3)))
-    seen = _seen_windows(shapes, _in_windows(shapes.view, panes, doubles), window, how)
-    lines = _as_seen(doubles, seen)
+    lines = shown_doubles(shapes, doubles, _in_windows(shapes.view, panes, doubles), window, how)
     return replace(lines, kind=np.full(len(lines), int(kind)))
+
+
+def shown_doubles(shapes: LineSources, doubles: Doubles, shown: Lines, window: Window | None, how: Depth) -> Lines:
+    """Doubles as far as lines on mirrors, whose items are the numbers of doubles, show them and nothing stands before
+    these, as reflected lines where they seem to be."""
+    return _as_seen(doubles, _seen_windows(shapes, shown, window, how))
 
 
 def with_more(lines: Lines, seen: Visibility, more: Lines) -> tuple[Lines, Visibility]:

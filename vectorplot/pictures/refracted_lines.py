@@ -1,22 +1,25 @@
-"""The lines that are seen bent in parallel pictures: in transparent convex solids, and behind them.
+"""The lines that are seen bent: in transparent convex solids, and behind them.
 
 Parallel rays are parallel behind a plane that bends them: what is seen through a face of a solid is a parallel picture
 again, in another direction, of what the solid holds; and through the face by which rays leave, one of what is behind
-it. Each is drawn as any other picture, and each of its lines is seen in its face as lines are in mirrors.
+it. Each is drawn as any other picture, exact curves of smooth surfaces among it, and each of its lines is seen in its
+face as lines are in mirrors. In a perspective things have places where they seem to be, see bent_lines: through each
+face by which rays enter, and each by which they leave, others.
 """
 
 from __future__ import annotations
 
 import warnings
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from vectorplot.arrays import Bools, Floats
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.effects.cuts import between
-from vectorplot.effects.glass import refracting_items
+from vectorplot.effects.glass import Solid, beams_of, refracting_items
 from vectorplot.effects.mirrors import Mirrors, mirrors_of
-from vectorplot.effects.refraction import refracted
+from vectorplot.effects.refraction import SightWays, Soup, bent, refracted
 from vectorplot.errors import InputWarning
 from vectorplot.geometry import ragged, records
 from vectorplot.geometry.algebra import matmul
@@ -24,6 +27,7 @@ from vectorplot.geometry.budget import in_turn, unresolved
 from vectorplot.geometry.component_arrays import cross
 from vectorplot.geometry.projections import Projection
 from vectorplot.geometry.vectors import normalize
+from vectorplot.pictures.bent_lines import FACETS, Seeming, Things, seeming, things_of
 from vectorplot.pictures.line_sources import LineSources
 from vectorplot.pictures.pipeline import Pipeline
 from vectorplot.pictures.plan import plan_draw
@@ -33,8 +37,10 @@ from vectorplot.pictures.reflected_lines import (
     Doubles,
     Window,
     doubles_of,
+    in_faces,
     no_doubles,
     nothing_of,
+    on_plane,
     seen_beyond,
     shown_lines,
     with_more,
@@ -72,6 +78,8 @@ def with_refractions(
     Warns: InputWarning where they have more faces than the budget allows to look through.
     """
     how = replace(how, scene=replace(how.scene, lights=how.scene.lights or (default_light(shapes.view),)))
+    if shapes.view.eye is not None:
+        return with_more(lines, seen, _in_perspective(shapes, window, how))
     found, panes, items = list[Doubles](), list[Mirrors](), np.flatnonzero(_bending(shapes)).tolist()
     for item in items:
         face = np.flatnonzero((shapes.view.face_item == item) & (shapes.faces.facing > 0))
@@ -241,3 +249,143 @@ def _behind(sources: LineSources, backs: Mirrors, number: int, item: int, how: D
     items = (nothing_of(one) if k == item else one for k, one in enumerate(scene.items))
     finer = replace(how, tolerance=how.tolerance * bend.finer)
     return bend.doubles(*bend.seen(sources, replace(scene, items=tuple(items)), finer))
+
+
+# Lines that are seen bent in a perspective.
+
+
+def _in_perspective(shapes: LineSources, window: Window | None, how: Depth) -> Lines:
+    """What refracting solids show of lines."""
+    view = shapes.view
+    found, panes, left = list[Doubles](), list[Mirrors](), how.most
+    for item in in_turn(np.flatnonzero(_bending(shapes)).tolist()):
+        solid = Solid.of(view, item, shapes.scene.items[item].material.refraction)
+        own = mirrors_of(view, solid.face[shapes.faces.facing[solid.face] > 0])
+        first = sum(map(len, panes))
+        for doubles in _Glass(shapes, item, solid, own, how).doubles(left):
+            found.append(replace(doubles, mirror=doubles.mirror + first))
+            left -= 1
+        panes.append(own)
+    return shown_lines(shapes, _joined(panes), found, LineKind.REFRACTED, window, how)
+
+
+@dataclass(frozen=True, eq=False)
+class _Glass:
+    """A refracting solid in a perspective, its item, and the planes of its faces that the eye sees."""
+
+    shapes: LineSources
+    item: int
+    solid: Solid
+    panes: Mirrors
+    how: Depth
+
+    def doubles(self, most: int) -> Iterator[Doubles]:
+        """What is seen through each pane in the solid, and then through each other plane of its faces behind it, so
+        many in all."""
+        panes, held, shown = self.panes, self._held(), dict[int, Seeming]()
+        for number in range(min(len(panes), most)):
+            rays, box = self.solid.sight_ways(self._faces(number)[:1]), self._box(number)
+            shown[number] = seeming(held, rays, box, _corners(box), self.how)
+            seen = shown[number].seen(self.how.hidden)
+            yield doubles_of(self._view, panes, number, _unmoved, shown[number].view, shown[number].lines, seen)
+        left = most - len(panes)
+        ways, faces = self._ways()
+        for back, beams in ways.items() if left > 0 else ():
+            behind = self._behind(faces == back)
+            for number, leaves, box in beams[: max(left, 0)] if len(behind) else ():
+                yield self._through(number, np.flatnonzero(faces == back), leaves, box, behind, shown[number])
+            left -= len(beams) if len(behind) else 0
+        if left < 0 or most <= len(panes):
+            _tell_what_is_left()
+
+    @property
+    def _view(self) -> View:
+        return self.shapes.view
+
+    def _faces(self, number: int) -> Ints:
+        """The numbers in the solid of the faces in a pane."""
+        return np.asarray(np.searchsorted(self.solid.face, self.panes.face[self.panes.plane == number]))
+
+    def _box(self, number: int) -> Floats:
+        """(4,) the box of a pane in the image."""
+        box = self.shapes.faces.box[:, self.solid.face[self._faces(number)]].astype(np.float64)
+        return np.array([box[0].min(), box[1].max(), box[2].min(), box[3].max()])
+
+    def _ways(self) -> tuple[dict[int, list[tuple[int, SightWays, Floats]]], Ints]:
+        """By the numbers of the planes by which rays leave the solid: by which panes they enter, how they go, and the
+        box (4,) in which they are seen; and the numbers of the planes of all faces."""
+        fronts = np.concatenate([np.zeros(0, dtype=np.intp), *(self._faces(k) for k in range(len(self.panes)))])
+        pane = np.repeat(np.arange(len(self.panes)), [len(self._faces(k)) for k in range(len(self.panes))])
+        boxes = self.shapes.faces.box[:, self.solid.face[fronts]].astype(np.float64)
+        every, plane = mirrors_of(self._view, self.solid.face), np.full(len(self.solid.face), -1)
+        plane[np.searchsorted(self.solid.face, every.face)] = every.plane
+        found = dict[int, list[tuple[int, SightWays, Floats]]]()
+        for beams in beams_of(self._view, self.solid, fronts, boxes):
+            both = np.stack([plane[beams.back], pane[beams.front]])
+            pairs, pair = np.unique(both, axis=1, return_inverse=True)
+            for number, (back, front) in enumerate(pairs.T.tolist()):
+                own = np.flatnonzero(pair == number)
+                if back >= 0 and back != plane[self._faces(front)[0]]:
+                    box = beams.box[:, own]
+                    whole = np.array([box[0].min(), box[1].max(), box[2].min(), box[3].max()])
+                    found.setdefault(back, []).append((front, beams.leaves.with_guides_of(own), whole))
+        return found, plane
+
+    def _held(self) -> Things:
+        """What there is in the solid."""
+        view, planes = self._view, self.solid.planes
+        inwards, points = matmul(view.axes.T, -planes[:3]).T, view.world_of(planes[:3] * planes[3])
+        scene = _part(self.how, inwards, points, view.tolerance * view.scale)
+
+        def left_out(view: View, lines: Lines) -> Bools:
+            return _made_by_cuts(view, lines, self.how, inwards, points)
+
+        return things_of(self.shapes, scene, self.how, FACETS, left_out)
+
+    def _behind(self, faces: Bools) -> Things:
+        """What there is behind some faces of the solid, all in one plane; what lies in that is in the solid too."""
+        view, plane = self._view, self.solid.planes[:, int(np.argmax(faces))]
+        outwards, base = matmul(view.axes.T, plane[:3])[None], view.world_of((plane[:3] * plane[3])[:, None])
+        scene = _part(self.how, outwards, base, view.tolerance * view.scale)
+        items = (nothing_of(one) if k == self.item else one for k, one in enumerate(scene.items))
+
+        def left_out(view: View, lines: Lines) -> Bools:
+            low = np.maximum(*(matmul(plane[:3], side) - plane[3] for side in (lines.start, lines.end)))
+            in_plane: Bools = np.asarray(low <= CUT_EDGE_OF_EXTENT)
+            return in_plane | _made_by_cuts(view, lines, self.how, outwards, base)
+
+        return things_of(self.shapes, replace(scene, items=tuple(items)), self.how, FACETS, left_out)
+
+    def _through(
+        self, number: int, faces: Ints, leaves: SightWays, box: Floats, behind: Things, held: Seeming
+    ) -> Doubles:
+        """What is seen behind the solid through a pane and some of its faces, hidden by what it holds."""
+        view, panes, how = self._view, self.panes, self.how
+        shown = seeming(behind, leaves, box, _corners(box), how, held.triangles)
+        outlines = self.solid.outlines(faces)
+        outlines = outlines.on_ways(np.arange(len(faces)), np.zeros_like(faces))
+        rays = self.solid.sight_ways(self._faces(number)[:1])
+        window = bent(view, rays, outlines, self._box(number)[:, None], how.tolerance)
+        seen = _in_outline(view, panes, number, window, shown, shown.seen(how.hidden))
+        return doubles_of(view, panes, number, _unmoved, shown.view, shown.lines, seen)
+
+
+def _unmoved(points: Floats) -> Floats:
+    return points
+
+
+def _corners(box: Floats) -> Window:
+    """A box (4,) as a window."""
+    return box[[0, 2]], box[[1, 3]]
+
+
+def _in_outline(view: View, panes: Mirrors, number: int, outline: Soup, shown: Seeming, seen: Visibility) -> Visibility:
+    """What is seen of lines through the image of convex polygons in a pane."""
+    ends = shown.lines.ends(shown.view, seen.segment, seen.low, seen.high)
+    (here, near), (there, far) = (on_plane(view, panes, number, side) for side in ends)
+    corners, _ = on_plane(view, panes, number, outline.points)
+    flat = replace(view, points=corners, corners=np.arange(corners.shape[1]), offsets=outline.offsets)
+    part, low, high = in_faces(flat, np.arange(len(outline)), panes.normal[:, number], here, there)
+    begin, length = seen.low[part], (seen.high - seen.low)[part]
+    low, high = (share * far[part] / (share * far[part] + (1.0 - share) * near[part]) for share in (low, high))
+    return Visibility(seen.segment[part], begin + low * length, begin + high * length, seen.hidden_by[part])
