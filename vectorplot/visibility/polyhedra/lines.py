@@ -242,13 +242,20 @@ def _lie_along(start: Floats, end: Floats, one: Floats, two: Floats, tolerance: 
     along: Bools = np.isfinite(
         cKDTree(listed).query(np.concatenate([start, end]).T, distance_upper_bound=2 * tolerance)[0]
     )
-    # The others may be parts of listed ones, whose boxes they lie in.
+    # The others may be parts of listed ones: then they begin in the box of a short piece of one.
+    way = two - one
+    length = np.sqrt(dot(way, way))
+    pieces = np.ceil(length / np.where(length.mean() > 0.0, length.mean(), 1.0)).astype(np.intp) + 1
+    owner, place = ragged.owner(pieces), ragged.place(pieces)
+    first, last = (one[:, owner] + (place + more) / pieces[owner] * way[:, owner] for more in (0, 1))
     rest = np.flatnonzero(~along)
-    low, high = np.minimum(one, two) - tolerance, np.maximum(one, two) + tolerance
-    part, whole = overlapping_boxes(np.minimum(start, end)[:, rest], np.maximum(start, end)[:, rest], low, high)
-    part = rest[part]
-    far = [_from_segments(side[:, part], one[:, whole], two[:, whole]) for side in (start, end)]
-    along[part[np.maximum(*far) <= tolerance]] = True
+    low, high = np.minimum(first, last) - tolerance, np.maximum(first, last) + tolerance
+    part, piece = overlapping_boxes(start[:, rest], start[:, rest], low, high)
+    part, whole = rest[part], owner[piece]
+    for side in (start, end):
+        near = _from_segments(side[:, part], one[:, whole], two[:, whole]) <= tolerance
+        part, whole = part[near], whole[near]
+    along[part] = True
     return along
 
 
