@@ -29,6 +29,7 @@ from vectorplot.surfaces.parameter_regions import ParameterRegions
 from vectorplot.surfaces.trimmed import is_embedded
 from vectorplot.tolerances import OUTSIDE_DOMAIN
 from vectorplot.visibility.polyhedra.lines import kept_apart
+from vectorplot.visibility.smooth import sight_lines
 from vectorplot.visibility.smooth.curve_families import (
     Along,
     ConditionCurves,
@@ -96,6 +97,16 @@ def within_box(curves: Curves, sheet: ImplicitSheet) -> Curves:
     at = curves.at(roots.chord, roots.part)
     second = np.where(np.isfinite(curves.second_places[roots.chord]), at.points, np.nan)
     return _divided(curves, values >= 0.0, roots, replace(at, second_places=second))
+
+
+def beyond_near_plane(view: View, curves: Curves) -> Curves:
+    """The parts of curves that are farther from the eye than the near plane: what is behind the eye hides nothing, and
+    no sight line leads there."""
+    depth = sight_lines.depth(view, curves.points) - view.near
+    if not len(curves) or (depth > 0.0).all():
+        return curves
+    roots = roots_along(curves, lambda _, at: sight_lines.depth(view, at.points) - view.near, depth)
+    return _divided(curves, depth > 0.0, roots, curves.at(roots.chord, roots.part))
 
 
 LOOKS = 8

@@ -14,7 +14,7 @@ from vectorplot.geometry.algebra import inverse_matrix
 from vectorplot.geometry.budget import in_turn
 from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.records import Elements
-from vectorplot.geometry.vectors import all_finite, dot, from_components, greatest_component, least_component
+from vectorplot.geometry.vectors import all_finite, dot, from_components, greatest_component, least_component, norm
 from vectorplot.scene.view import View
 from vectorplot.surfaces.capped_bodies import ball_of
 from vectorplot.tolerances import (
@@ -37,6 +37,10 @@ from vectorplot.visibility.smooth.sheets import ParametricSheet, Sheets
 
 STRIP = 16
 """Triangles, one beside the other, of which the tree has one box."""
+
+BESIDE_EYE, MOST_HALVINGS = 1.0 / 16.0, 24
+"""Triangles that reach before the near plane are divided, so many times at most, until their sides are no longer than
+this part of their distance from the eye: those that still do so are then seen at more than 86 degrees."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -138,8 +142,7 @@ class Targets:
 
 
 def targets_of(view: View, sheets: Sheets) -> Targets:
-    """The sheets as seen in a view; triangles that reach before the near plane are left out, and those of a sheet that
-    hides nothing."""
+    """The sheets as seen in a view; what is before the near plane is left out, and sheets that hide nothing."""
     hiding = [number for number, sheet in enumerate(sheets) if sheet.hides]
     own = [sheets[number] for number in hiding]
     none, nothing = np.zeros((0, 3)), np.zeros((0, 3), dtype=np.intp)
@@ -151,11 +154,42 @@ def targets_of(view: View, sheets: Sheets) -> Targets:
     number = np.repeat(np.array(hiding, dtype=np.intp), [len(sheet.corners) for sheet in own])
     off = 2.0 * np.concatenate([none[:, 0], *(sheet.deviations for sheet in own)])
     nearest = np.minimum.reduce([depth.take(column) for column in corners.T])
-    kept = nearest > view.near
-    if not kept.all():
-        corners, number, off, nearest = corners[kept], number[kept], off[kept], nearest[kept]
+    if not (nearest > view.near).all():
+        points, places, corners, of = _divided_before_eye(view, points, places, corners)
+        image, depth = sight_lines.image(view, points), sight_lines.depth(view, points)
+        number, off = number[of], off[of]
+        nearest = np.minimum.reduce([depth.take(column) for column in corners.T])
     scale = 1.0 if view.eye is None else view.focus / np.maximum(nearest, view.near)
     return Targets(Triangles(number, corners, off * scale, off), Vertices(points, places, image, depth))
+
+
+def _divided_before_eye(view: View, points: Floats, places: Floats, corners: Ints) -> tuple[Floats, Floats, Ints, Ints]:
+    """Vertices, points (n,3) and places (n,3), and triangles, corners (t,3), without those that reach before the near
+    plane, which are divided as far as BESIDE_EYE says; and (t,) of which triangle each is a part."""
+    of = np.arange(len(corners))
+    for _ in in_turn(range(MOST_HALVINGS)):
+        depth = sight_lines.depth(view, points)[corners]
+        away = norm(sight_lines.sight(view, points))[corners].min(axis=1)
+        ends = points[corners]
+        size = np.max([norm(ends[:, k] - ends[:, k - 1]) for k in range(3)], axis=0)
+        behind = depth.max(axis=1) <= view.near
+        coarse = (depth.min(axis=1) <= view.near) & ~behind & (size > BESIDE_EYE * away)
+        corners, of, coarse = corners[~behind], of[~behind], coarse[~behind]
+        if not coarse.any():
+            break
+        a, b, c = corners[coarse].T
+        ab, bc, ca = len(points) + np.arange(3 * len(a)).reshape(3, -1)
+        points, places = (
+            np.concatenate([one, *(0.5 * (one[x] + one[y]) for x, y in ((a, b), (b, c), (c, a)))])
+            for one in (points, places)
+        )
+        count = np.where(coarse, 4, 1)
+        first = ragged.starts(count)[coarse]
+        corners, of = np.repeat(corners, count, axis=0), np.repeat(of, count)
+        for k, parts in enumerate(((a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca))):
+            corners[first + k] = np.stack(parts, axis=1)
+    kept = sight_lines.depth(view, points)[corners].min(axis=1) > view.near
+    return points, places, corners[kept], of[kept]
 
 
 def weights(triangle: Floats, points: Floats) -> Floats:

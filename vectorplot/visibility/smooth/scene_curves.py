@@ -25,7 +25,7 @@ from vectorplot.visibility.polyhedra.lines import items_wanting, kinds_of
 from vectorplot.visibility.smooth import sight_lines
 from vectorplot.visibility.smooth.curve_families import Along, Chords, ParameterCurves, inner_part
 from vectorplot.visibility.smooth.implicit_items import curves_of_implicit
-from vectorplot.visibility.smooth.intersections import SmoothSheet, meetings
+from vectorplot.visibility.smooth.intersections import SmoothSheet, beyond_near_plane, meetings
 from vectorplot.visibility.smooth.lines_on_several_sheets import Stretches, no_stretches, with_other_sheets
 from vectorplot.visibility.smooth.parametric_items import (
     contours_of_parametrised,
@@ -412,7 +412,7 @@ def traced_scene(
         wanted = kinds_of(item, kinds) & {LineKind.CURVE, LineKind.LABEL, LineKind.CENTRE, LineKind.TRACE}
         if is_curve(item.shape) and wanted:
             drawn.append(space_curve(view, item.shape, number, sheets, tracing, min(wanted)))
-    seen = [_with_images(view, together(parts)) for parts in ([*drawn, met.curves], edges)]
+    seen = [_with_images(view, beyond_near_plane(view, together(parts))) for parts in ([*drawn, met.curves], edges)]
     curves, hiding = with_merged_families(seen, all_sheets)
     curves, stretches = with_other_sheets(curves, hiding, all_sheets)
     return TracedScene(all_sheets, met.meets_itself, curves, hiding, tuple(dict.fromkeys(doubts)), stretches)
