@@ -248,7 +248,9 @@ def test_a_drawing_anywhere_on_its_page_is_seen_alike():
     ("told", "cause"),
     [
         ({"mirror": "ball"}, "mirror"),
-        ({"radius_mm": 0.0}, "expected a positive radius in mm, got 0"),
+        ({"radius_mm": 0.0}, "expected a positive radius of at most 1000000 mm, got 0"),
+        ({"radius_mm": 1e9}, "expected a positive radius of at most 1000000 mm, got 1e+09"),
+        ({"viewer": (1e308, -1e308, 1e308)}, "expected three finite numbers of mm, at most 1000000, got (1e+308"),
         ({"mirror": "cone", "height_mm": 20.0}, "is too flat to show the paper: make it higher than 25 mm"),
         ({"viewer": (0.0, 10.0, 300.0)}, "expected an eye beside the cylinder, more than 25 mm off its axis"),
         ({"viewer": (0.0, -400.0, -1.0)}, "expected an eye above the paper"),

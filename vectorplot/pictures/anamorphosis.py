@@ -79,6 +79,9 @@ OUTLINE_POINTS = 256
 SAMPLES = 4096
 """Points of a drawing that tell how much it is enlarged."""
 
+MOST_MM = 1e6
+"""Of a mirror, and of the way to the eye: a page is no larger."""
+
 MOST_POINTS = float(1 << 22)
 """On all strokes together."""
 
@@ -157,8 +160,8 @@ def _mirror(kind: str, radius_mm: float, height_mm: float | None) -> CurvedMirro
     """The mirror with its usual height where none is given. Errors: InputError as in CurvedMirror, and for lengths that
     are not positive."""
     for name, value in (("radius", radius_mm), ("height", height_mm)):
-        if value is not None and not 0.0 < value < np.inf:
-            raise InputError(f"mirror: expected a positive {name} in mm, got {value:g}")
+        if value is not None and not 0.0 < value <= MOST_MM:
+            raise InputError(f"mirror: expected a positive {name} of at most {MOST_MM:.0f} mm, got {value:g}")
     usual = CONE_HEIGHT * radius_mm if kind == "cone" else np.inf
     return CurvedMirror(kind, radius_mm, usual if height_mm is None else height_mm)
 
@@ -173,8 +176,8 @@ def _eye(viewer: Sequence[float] | None, mirror: CurvedMirror) -> Floats:
         eye = np.asarray(viewer, dtype=np.float64)
     except (TypeError, ValueError):
         eye = np.zeros(0)
-    if eye.shape != (3,) or not np.isfinite(eye).all():
-        raise InputError(f"viewer: expected three finite numbers of mm, got {viewer!r}")
+    if eye.shape != (3,) or not (np.abs(eye) <= MOST_MM).all():
+        raise InputError(f"viewer: expected three finite numbers of mm, at most {MOST_MM:.0f}, got {viewer!r}")
     shown = ",".join(f"{value:g}" for value in eye.tolist())
     if not eye[2] > 0.0:
         raise InputError(f"viewer {shown}: expected an eye above the paper, at a height of more than 0 mm")
