@@ -70,7 +70,9 @@ _FILES = ("scene_file", "out", "format_", "quiet", "explain", "exaggeration", "m
         default="cylinder",
         help="What stands on the paper; none: one looks at the paper aslant.",
     ),
-    click.option("--radius", "radius_mm", type=length, default="25mm", metavar="LENGTH", help="Of the mirror's foot."),
+    click.option(
+        "--radius", "radius_mm", type=length, default="25mm", metavar="LENGTH", help="Radius of the mirror at its foot."
+    ),
     click.option(
         "--tall",
         "height_mm",
