@@ -248,7 +248,9 @@ def test_a_drawing_anywhere_on_its_page_is_seen_alike():
     ("told", "cause"),
     [
         ({"mirror": "ball"}, "mirror"),
-        ({"radius_mm": 0.0}, "expected a positive radius in mm, got 0"),
+        ({"radius_mm": 0.0}, "expected a positive radius of at most 1000000 mm, got 0"),
+        ({"radius_mm": 1e9}, "expected a positive radius of at most 1000000 mm, got 1e+09"),
+        ({"viewer": (1e308, -1e308, 1e308)}, "expected three finite numbers of mm, at most 1000000, got (1e+308"),
         ({"mirror": "cone", "height_mm": 20.0}, "is too flat to show the paper: make it higher than 25 mm"),
         ({"viewer": (0.0, 10.0, 300.0)}, "expected an eye beside the cylinder, more than 25 mm off its axis"),
         ({"viewer": (0.0, -400.0, -1.0)}, "expected an eye above the paper"),
@@ -261,6 +263,7 @@ def test_a_drawing_anywhere_on_its_page_is_seen_alike():
         ({"page": "80x80"}, "the page has 60 x 60 mm for it"),
         ({"page": "scale 1:2"}, "in true size, at no scale"),
         ({"mirror": "none", "seen_mm": 1e6}, "does not fit seen from there"),
+        ({"viewer": (0.0, -400.0, 1e-9)}, "nothing can be seen in the cylinder: look from higher up"),
     ],
 )
 @pytest.mark.slow
@@ -343,6 +346,51 @@ def test_the_command_writes_drawing_and_preview(tmp_path):
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize(
+    "told",
+    [
+        {"viewer": (0.0, -25.01, 60.0)},
+        {"viewer": (0.0, -100.0, 30.0), "height_mm": 200.0},
+        {"mirror": "cone", "viewer": (20.0, 0.0, 52.0)},
+    ],
+)
+def test_what_lies_beside_the_viewer_makes_no_endless_page(told):
+    """The picture is still to be seen on it, and strokes that lead behind the viewer as far as they are ahead."""
+    seen = vp.anamorphosis_view(picture(), **told)
+    shown = next(layer for layer in seen.layers if layer.name == "lines")
+    (mark,) = shown.strokes
+    assert max(seen.width_mm, seen.height_mm) < 20.0 * np.ptp(mark.points, axis=0).max()
+    paper = next(layer for layer in seen.layers if layer.name == "paper lines")
+    assert sum(map(len, paper.strokes)) > 4
+
+
+@pytest.mark.slow
+def test_the_paper_is_seen_as_a_pinhole_shows_it():
+    """Without the mirror before it: corners of the paper's strokes lie on those that are seen."""
+    viewer = np.array([0.0, -100.0, 30.0])
+    told = {"viewer": tuple(viewer), "height_mm": 200.0, "curves": "polyline"}
+    mirror = _mirror("cylinder", 25.0, 200.0)
+    setting = _fitted(mirror, viewer, np.concatenate(SEEN), None)
+    laid, seen = vp.anamorphosis(picture(), **told), vp.anamorphosis_view(picture(), **told)
+    ways = np.insert(laid.layers[0].strokes[0].points - laid.page_from_world[:2, 3], 2, 0.0, axis=1) - viewer
+    sight = setting.centre - viewer
+    far = ways @ sight / (sight @ sight)
+    off = ways[far > 0.0] / far[far > 0.0, None] - sight
+    page = np.column_stack([off @ setting.right, off @ setting.up]) + seen.page_from_world[:2, 3]
+    page = page[(np.abs(page - seen.page_from_world[:2, 3]) < 0.99 * norm(sight)).all(axis=1)]
+    (mark,) = next(layer for layer in seen.layers if layer.name == "paper lines").strokes
+    lines = shapely.union_all([shapely.linestrings(line) for line in np.split(mark.points, mark.offsets[1:-1])])
+    assert len(page) > 50 and shapely.distance(shapely.points(page), lines).max() < 1e-9
+
+
+@pytest.mark.slow
+def test_polygons_alone_are_nothing_in_a_cone():
+    painted = vp.paint(vp.Scene((vp.Item("BOX", box((2, 2, 2))),)), lines=(), page="80x60")
+    with pytest.raises(vp.InputError, match="nothing to be seen in the mirror"):
+        vp.anamorphosis(painted, mirror="cone")
+
+
+@pytest.mark.slow
 def test_the_command_bends_a_drawing_that_was_saved(tmp_path):
     vp.save(picture(), tmp_path / "picture.json")
     result = run(tmp_path / "picture.json", "-o", tmp_path / "laid.json", "--page", "A4", "--landscape", "-q")
@@ -350,6 +398,8 @@ def test_the_command_bends_a_drawing_that_was_saved(tmp_path):
     found = vp.read(tmp_path / "laid.json")
     assert (found.width_mm, found.height_mm) == (297.0, 210.0)
     assert sum(len(strokes) for layer in found.layers for strokes in layer.strokes) > len(SEEN)
+    result = run(tmp_path / "picture.json", "-o", tmp_path / "laid.json", "--hatch", "tone")
+    assert result.exit_code == 2 and "--hatch does not go with a drawing that was saved" in result.output
 
 
 def test_the_mirror_turns_light_by_the_law_of_reflection():

@@ -196,6 +196,16 @@ def test_labels_on_bodies_are_written_on_their_developments(shape, at, unit):
     assert (drawing.width_mm, drawing.height_mm) == (bare.width_mm, bare.height_mm)
 
 
+def test_formulas_are_plain_letters_on_developments():
+    def letters(text):
+        scene = vp.Scene((vp.Item("box", box((30, 20, 10))),), labels=(vp.Label(text, (15, 10, 10)),))
+        return next(layer.strokes[0].points for layer in vp.development(scene).layers if layer.name == "label")
+
+    assert np.array_equal(letters(r"$\sigma^2$"), letters("σ²"))
+    with pytest.raises(vp.InputError, match=r"there are no strokes for \\sum"):
+        letters(r"$\sum$")
+
+
 def test_letters_stand_level_and_in_the_middle_of_what_they_name():
     scene = vp.Scene((vp.Item("can", Cylinder(10, 0, 30)),), labels=(vp.Label("I", (0, -10, 20), size_mm=5),))
     layers = {layer.name: layer.strokes[0].points for layer in vp.development(scene).layers}

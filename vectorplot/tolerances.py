@@ -451,6 +451,10 @@ COLOURED_OF_EXTENT = 3e-4
 """Part of the extent of a scene within which smooth surfaces become triangles that get colours by numbers: a twentieth
 of a millimetre on a page."""
 
+OFF_IN_SINGLE = 1e-4
+"""Part of the size of a shape by which single precision may move its points unsaid where it is written as STL: shapes
+up to some hundred sizes off the origin are as good as others."""
+
 UNITED_OF_EXTENT = 1e-12
 """Part of the largest coordinate that the meshes of a grid have on which regions are united where floating numbers do
 not lead to a union: a few thousand of their last digits."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable, Sequence
 from itertools import chain
 from typing import Any
@@ -10,11 +11,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vectorplot.arrays import Floats, Ints
-from vectorplot.errors import InputError
+from vectorplot.errors import InputError, InputWarning, printable
 from vectorplot.geometry import ragged
 from vectorplot.geometry.convex_polygons import convex_faces
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.mesh_repair import without_loose_vertices
+from vectorplot.tolerances import OFF_IN_SINGLE
 
 NamedMesh = tuple[str, Mesh]
 """The name of a part, and its faces."""
@@ -27,7 +29,8 @@ def mesh_bytes(parts: Sequence[NamedMesh], format: str) -> bytes:
     """The faces of meshes, as far as they are present, as the content of a file: stl (binary, in triangles), obj (an
     object for each), ply (text) or off. Coordinates keep every digit, in stl those of single precision.
 
-    Errors: InputError where there are no faces, and for coordinates that single precision does not hold.
+    Errors: InputError where there are no faces, and for coordinates that single precision does not hold; InputWarning
+    for those that it moves too far.
     """
     shown = [(name, _present(mesh)) for name, mesh in parts]
     shown = [(name, mesh) for name, mesh in shown if mesh.face_count]
@@ -66,6 +69,12 @@ def _stl(parts: Sequence[NamedMesh]) -> bytes:
         single = points.astype("<f4")
     if not np.isfinite(single).all():
         raise InputError("stl holds numbers up to 3.4e38; scale the shape down, or write obj, ply or off")
+    off = float(np.abs(points - single).max())
+    if off > OFF_IN_SINGLE * float(np.ptp(vertices, axis=0).max()):
+        text = (
+            f"stl holds seven digits: places are off by up to {off:.2g}; move the shape nearer to the origin, or write "
+        )
+        warnings.warn(text + "obj, ply or off", InputWarning, stacklevel=2)
     triangles = np.zeros(len(points), dtype=_TRIANGLE)
     triangles["corners"] = single
     triangles["normal"] = Mesh.from_triangles(
@@ -79,7 +88,9 @@ def _obj(parts: Sequence[NamedMesh]) -> bytes:
     """Source: Wavefront, Advanced Visualizer manual, appendix B1."""
     first, pieces = 1, []
     for name, mesh in parts:
-        pieces += [f"o {' '.join(name.split()) or 'mesh'}\n", _rows(mesh.vertices, "v " + _PLACE)]
+        # A line that ends in a backslash would go on in the next.
+        called = printable(name).rstrip("\\ ") or "mesh"
+        pieces += [f"o {called}\n", _rows(mesh.vertices, "v " + _PLACE)]
         pieces += [_lists(mesh.corners + first, mesh.offsets, np.full(mesh.face_count, "f"))]
         first += len(mesh.vertices)
     return "".join(pieces).encode("utf-8")

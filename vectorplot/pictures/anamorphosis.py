@@ -79,11 +79,18 @@ OUTLINE_POINTS = 256
 SAMPLES = 4096
 """Points of a drawing that tell how much it is enlarged."""
 
+MOST_MM = 1e6
+"""Of a mirror, and of the way to the eye: a page is no larger."""
+
 MOST_POINTS = float(1 << 22)
 """On all strokes together."""
 
 LETTERS_MM, GAP_MM, CROSS_MM, ARROW_MM = 2.5, 4.0, 6.0, 10.0
 """The height of letters, what is between them and the picture, and the sizes of the marks."""
+
+FIELD = 1.0
+"""Half the side of what is shown as seen, in distances of the eye: 45 degrees to each side. What lies beside the viewer
+would be shown without end."""
 
 FOOT_POINTS, FINE_POINTS = 96, 720
 """On the circle in which a mirror stands: as an arc on the paper, and where it is seen from the eye."""
@@ -153,8 +160,8 @@ def _mirror(kind: str, radius_mm: float, height_mm: float | None) -> CurvedMirro
     """The mirror with its usual height where none is given. Errors: InputError as in CurvedMirror, and for lengths that
     are not positive."""
     for name, value in (("radius", radius_mm), ("height", height_mm)):
-        if value is not None and not 0.0 < value < np.inf:
-            raise InputError(f"mirror: expected a positive {name} in mm, got {value:g}")
+        if value is not None and not 0.0 < value <= MOST_MM:
+            raise InputError(f"mirror: expected a positive {name} of at most {MOST_MM:.0f} mm, got {value:g}")
     usual = CONE_HEIGHT * radius_mm if kind == "cone" else np.inf
     return CurvedMirror(kind, radius_mm, usual if height_mm is None else height_mm)
 
@@ -169,8 +176,8 @@ def _eye(viewer: Sequence[float] | None, mirror: CurvedMirror) -> Floats:
         eye = np.asarray(viewer, dtype=np.float64)
     except (TypeError, ValueError):
         eye = np.zeros(0)
-    if eye.shape != (3,) or not np.isfinite(eye).all():
-        raise InputError(f"viewer: expected three finite numbers of mm, got {viewer!r}")
+    if eye.shape != (3,) or not (np.abs(eye) <= MOST_MM).all():
+        raise InputError(f"viewer: expected three finite numbers of mm, at most {MOST_MM:.0f}, got {viewer!r}")
     shown = ",".join(f"{value:g}" for value in eye.tolist())
     if not eye[2] > 0.0:
         raise InputError(f"viewer {shown}: expected an eye above the paper, at a height of more than 0 mm")
@@ -221,7 +228,8 @@ def _fitted(mirror: CurvedMirror, eye: Floats, outline: Floats, seen_mm: float |
     if not (scale > 0.0 and shows(scale)):
         where = "seen from there" if mirror.kind == "none" else f"in the {mirror.kind}"
         if not least * long > COINCIDENT_MM:
-            raise InputError(f"nothing can be {where}: look from higher up, or make the mirror higher")
+            seen = where.removeprefix("seen ")
+            raise InputError(f"nothing can be seen {seen}: look from higher up, or make the mirror higher")
         raise InputError(
             f"a picture of {scale * long:.4g} mm does not fit {where}, its longer side may have {least * long:.4g} mm"
         )
@@ -382,7 +390,7 @@ def _laid(drawing: Drawing, setting: Setting, tolerance_mm: float, curved: bool)
     layers, enough = [], True
     for layer in drawing.layers:
         marks: list[Paths | CurvedStrokes | Fills] = []
-        for mark in _bent(layer, setting):
+        for mark in _bent(layer, setting.mirror):
             if isinstance(mark, Fills):
                 bent, plenty = fills_on_paper(mark, setting, tolerance_mm)
                 marks.append(bent)
@@ -398,10 +406,10 @@ def _laid(drawing: Drawing, setting: Setting, tolerance_mm: float, curved: bool)
     return layers, enough
 
 
-def _bent(layer: Layer, setting: Setting | None) -> list[Paths | CurvedStrokes | Fills]:
+def _bent(layer: Layer, mirror: CurvedMirror | None) -> list[Paths | CurvedStrokes | Fills]:
     """The marks of a layer that a mirror shows: strokes, and, but for the paper, filled polygons; these not in a cone,
     where one with the tip in it would be all around."""
-    filled = layer.plotted and (setting is None or setting.mirror.kind != "cone")
+    filled = layer.plotted and (mirror is None or mirror.kind != "cone")
     return [mark for mark in layer.marks if isinstance(mark, STROKES) or (filled and isinstance(mark, Fills))]
 
 
@@ -660,8 +668,8 @@ def anamorphosis_view(
 
     Notes
     -----
-    Edge cases: strokes on the paper that reach behind the viewer are left out; without a mirror the paper looks like
-    the picture, which is all there is.
+    Edge cases: the paper is shown as far as 45 degrees to each side of the line of sight; without a mirror the paper
+    looks like the picture, which is all there is.
 
     Examples
     --------
@@ -752,7 +760,7 @@ def _shown(
     while True:
         finer = max(OF_DRAWING * tolerance_mm / enlarged, LEAST_TOLERANCE_MM)
         drawing = drawn(Page(side, side, 0.0), finer, progress)
-        points = _outline(drawing)
+        points = _outline(drawing, mirror)
         setting = _fitted(mirror, eye, points, seen_mm)
         needed = min(setting.enlargement(points[:: 1 + len(points) // SAMPLES]), MOST_ENLARGED)
         if not needed > enlarged:
@@ -764,7 +772,7 @@ def _shown(
         for layer in drawing.layers
         if layer.plotted
         for mark in layer.marks
-        if mark not in _bent(layer, setting)
+        if mark not in _bent(layer, mirror)
     )
     if left_out:
         what = "filled polygons and texts" if mirror.kind == "cone" else "texts"
@@ -772,9 +780,9 @@ def _shown(
     return drawing, setting
 
 
-def _outline(drawing: Drawing) -> Floats:
-    """(k,2) points of all strokes and filled polygons of a drawing. Errors: InputError where there are none."""
-    marks = [mark for layer in drawing.layers for mark in _bent(layer, None)]
+def _outline(drawing: Drawing, mirror: CurvedMirror) -> Floats:
+    """(k,2) points of all that a mirror shows of a drawing. Errors: InputError where that is nothing."""
+    marks = [mark for layer in drawing.layers for mark in _bent(layer, mirror)]
     every = np.concatenate([np.zeros((0, 2)), *map(_points, marks)])
     if not len(every):
         raise InputError("anamorphosis: the picture has no strokes: there is nothing to be seen in the mirror")
@@ -799,7 +807,7 @@ def on_page(drawing: Drawing, setting: Setting, page: Page | str | None, toleran
     points = _points_of(layers)
     if not np.isfinite(points).all():
         raise InputError("anamorphosis: parts of the picture are not seen in the mirror: make it smaller")
-    highest = 0.0 if setting.mirror.kind == "none" else float(setting.heights(_outline(drawing)).max())
+    highest = 0.0 if setting.mirror.kind == "none" else float(setting.heights(_outline(drawing, setting.mirror)).max())
     marks = _marks(setting, points, highest)
     foot = curved_strokes(marks.mirror, tolerance_mm) if curved else marks.mirror
     signs = {"mirror": foot, "viewer": marks.viewer, "notes": marks.notes}
@@ -835,11 +843,11 @@ def as_seen(drawing: Drawing, setting: Setting, page: Page | str | None, toleran
     mirror = setting.mirror
     by = -setting.scale * setting.middle
     layers = [
-        replace(layer, marks=tuple(moved_mark(mark, setting.scale, by) for mark in _bent(layer, setting)))
+        replace(layer, marks=tuple(moved_mark(mark, setting.scale, by) for mark in _bent(layer, mirror)))
         for layer in drawing.layers
     ]
     if mirror.kind != "none":
-        highest = float(setting.heights(_outline(drawing)).max())
+        highest = float(setting.heights(_outline(drawing, setting.mirror)).max())
         rim = mirror.height if np.isfinite(mirror.height) else highest + ABOVE_FOOT * mirror.radius
         body, lines = _body_seen(setting, rim)
         laid, _ = _laid(drawing, setting, tolerance_mm, False)
@@ -864,17 +872,19 @@ def _seen_from(setting: Setting, places: Floats) -> Floats:
     return np.column_stack([dot(off, setting.right), dot(off, setting.up)])
 
 
+def _half_field(setting: Setting) -> float:
+    """Half the side of the square in which things are shown as seen."""
+    return FIELD * float(norm(setting.centre - setting.eye))
+
+
 def _beside(mark: Any, setting: Setting, body: Any, curved_mm: float | None) -> Any:
-    """A mark on the paper as it is seen, without what reaches behind the eye; strokes outside a polygon of shapely that
-    hides them, as curves within curved_mm unless that is None."""
-    seen = replace(mark, points=_seen_from(setting, mark.points3d))
-    if not len(seen):
-        return seen
-    sound = np.logical_and.reduceat(np.isfinite(seen.points).all(axis=1), seen.offsets[:-1])
-    seen = take(seen, sound)
-    if isinstance(seen, Fills):
-        return seen
-    left = _outside(seen, body)
+    """A mark on the paper as it is seen: polygons that are in the field, strokes as far as they are, outside a polygon
+    of shapely that hides them, as curves within curved_mm unless that is None."""
+    if isinstance(mark, Fills):
+        seen = replace(mark, points=_seen_from(setting, mark.points3d))
+        shown = (np.abs(seen.points) <= _half_field(setting)).all(axis=1)
+        return take(seen, np.logical_and.reduceat(shown, seen.offsets[:-1])) if len(seen) else seen
+    left = _outside(mark, setting, body)
     return left if curved_mm is None else curved_strokes(left, curved_mm)
 
 
@@ -897,25 +907,31 @@ def _body_seen(setting: Setting, rim: float) -> tuple[Any, Paths]:
     foot = _seen_from(setting, np.column_stack([ring, np.zeros(len(ring))]))
     upper = ring if setting.mirror.kind == "cylinder" else np.zeros((1, 2))
     top = _seen_from(setting, np.column_stack([upper, np.full(len(upper), rim)]))
-    body = shapely.convex_hull(shapely.multipoints(np.concatenate([foot, top])))
+    every = np.concatenate([foot, top])
+    body = shapely.convex_hull(shapely.multipoints(every[np.isfinite(every).all(axis=1)]))
     lines = shapely.get_exterior_ring(body)
     if len(top) > 1 and setting.eye[2] > rim:
         lines = shapely.line_merge(shapely.union(shapely.linestrings(lines.coords), shapely.linestrings(top)))
+    half = _half_field(setting)
+    lines = shapely.line_merge(shapely.intersection(lines, shapely.box(-half, -half, half, half)))
     parts = [shapely.get_coordinates(part) for part in shapely.get_parts(lines)]
     found = _polylines(parts)
     return body, replace(found, smooth=np.ones(len(found), dtype=np.bool_))
 
 
-def _outside(paths: Paths, body: Any) -> Paths:
-    """What is left of strokes outside a polygon of shapely."""
+def _outside(paths: Paths, setting: Setting, body: Any) -> Paths:
+    """What strokes on the paper look like in the field, outside a polygon of shapely."""
     import shapely
 
     if not len(paths):
         return paths
+    half = _half_field(setting)
     rounds = closed_round(paths)
     rings = shapely.linestrings(paths.points[rounds.index], indices=ragged.owner(np.diff(rounds.offsets)))
-    left = shapely.line_merge(shapely.difference(rings, body))
-    parts, source = shapely.get_parts(left, return_index=True)
+    ahead = shapely.intersection(rings, _ahead(setting, float(np.abs(paths.points).max())))
+    rings = shapely.transform(ahead, lambda at: _seen_from(setting, np.column_stack([at, np.zeros(len(at))])))
+    left = shapely.difference(shapely.intersection(rings, shapely.box(-half, -half, half, half)), body)
+    parts, source = shapely.get_parts(shapely.line_merge(left), return_index=True)
     points, part = shapely.get_coordinates(parts, return_index=True)
     sizes = np.bincount(part, minlength=len(parts))
     kept = sizes > 1
@@ -923,3 +939,22 @@ def _outside(paths: Paths, body: Any) -> Paths:
     nowhere = np.column_stack([points, np.zeros(len(points))])
     rest = (paths.kind[source], paths.item[source], paths.hidden_by[source], nowhere, paths.smooth[source])
     return Paths(points, offsets, np.zeros(len(source), dtype=np.bool_), *rest)
+
+
+def _ahead(setting: Setting, reach: float) -> Any:
+    """The paper in front of the eye, with all of it in the field, as far as a reach: a polygon of shapely."""
+    import shapely
+
+    sight = setting.centre - setting.eye
+    level = float(norm(sight[:2]))
+    square = np.array([(0.0, -1.0), (2.0, -1.0), (2.0, 1.0), (0.0, 1.0)])
+    if level <= NO_AZIMUTH_SINE * float(norm(sight)):
+        # All of it is as far away.
+        return shapely.polygons(2.0 * reach * (square - (1.0, 0.0)))
+    along = sight[:2] / level
+    # Of a ray in the field, no longer than its parts together, so much is along the line of sight.
+    least = float(setting.eye[2] * norm(sight)) / (1.0 + 2.0 * FIELD)
+    begin = (least + float(dot(setting.eye, sight))) / level
+    size = 2.0 * (reach + abs(begin))
+    corners = np.outer(begin + size * square[:, 0], along)
+    return shapely.polygons(corners + np.outer(size * square[:, 1], (-along[1], along[0])))

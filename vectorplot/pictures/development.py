@@ -15,6 +15,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.curves.curve import is_curve
 from vectorplot.drawing.drawing import Drawing, Layer, Paths, Pen
 from vectorplot.drawing.finishing import inked
+from vectorplot.drawing.formulas import without_formulas_in_strokes
 from vectorplot.drawing.layers import BLACK, layers_by_kind
 from vectorplot.drawing.letters import lettered
 from vectorplot.drawing.strokes import chosen
@@ -256,11 +257,11 @@ def _letters(label: Label, origin: Floats, way: Floats, piece: int) -> Strokes2D
     """The letters of a label about a point of a piece, along a way there."""
     turn = math.degrees(float(arctan2(way[1], way[0])))
     try:
-        text = lettered(
-            label.text, origin, size_mm=label.capitals_mm, align="centre", level="middle", rotation_deg=turn
-        ).strokes
+        plain = without_formulas_in_strokes(label.text)
+        how: dict[str, Any] = {"size_mm": label.capitals_mm, "rotation_deg": turn}
+        text = lettered(plain, origin, align="centre", level="middle", **how).strokes
     except InputError as error:
-        raise InputError(f"label {label.name}: {error.cause}") from None
+        raise InputError(f"label {label.name or repr(label.text)}: {error.cause}") from None
     return _polylines([text[k] for k in range(len(text))], NUMBER, piece, LineKind.LABEL)
 
 

@@ -44,6 +44,30 @@ def test_objects_keep_their_names_in_obj(tmp_path):
     assert [item.name for item in vp.read(tmp_path / "a.obj").items] == ["lower part", "upper"]
 
 
+@pytest.mark.parametrize(
+    ("name", "written"),
+    [
+        ("a\\", "a"),
+        ("\\ \\", "mesh"),
+        ("fl\udcfcgel", "fl?gel"),
+        ("a\x00\nf 1 2 3", "a? f 1 2 3"),
+        ("Ω <&> $_^{} #", ""),
+    ],
+)
+def test_a_name_is_never_more_than_a_name_in_obj(tmp_path, name, written):
+    """One that ends in a backslash would swallow the next line; names of files may hold halves of letters."""
+    vp.save(vp.Scene((vp.Item(name, ANGLE), vp.Item("next", box((1, 1, 1))))), tmp_path / "a.obj")
+    found = vp.read(tmp_path / "a.obj").items
+    assert [item.name for item in found] == [written or name, "next"]
+    assert [len(item.mesh.vertices) for item in found] == [12, 8]
+
+
+def test_stl_says_when_its_digits_do_not_hold_a_shape(tmp_path):
+    vp.save(ANGLE.moved(100.0, 0.3, 0.1), tmp_path / "a.stl")
+    with pytest.warns(InputWarning, match="stl holds seven digits: places are off by up to 0.2; move the shape nearer"):
+        vp.save(ANGLE.moved(0.0, 5.2e6 + 0.2, 0.0), tmp_path / "a.stl")
+
+
 @pytest.mark.slow
 def test_a_smooth_surface_is_as_near_as_is_said_and_turned_outwards(tmp_path):
     vp.save(Torus(3.0, 1.0), tmp_path / "ring.stl")

@@ -42,6 +42,8 @@ from vectorplot.cli.options import (
 from vectorplot.cli.picture import Companion, ReadSource, Source, make_picture
 
 if TYPE_CHECKING:
+    from collections.abc import Collection
+
     from vectorplot.cli.picture import Report
     from vectorplot.drawing.drawing import Drawing
     from vectorplot.pictures.anamorphosis import Drawn
@@ -68,7 +70,9 @@ _FILES = ("scene_file", "out", "format_", "quiet", "explain", "exaggeration", "m
         default="cylinder",
         help="What stands on the paper; none: one looks at the paper aslant.",
     ),
-    click.option("--radius", "radius_mm", type=length, default="25mm", metavar="LENGTH", help="Of the mirror's foot."),
+    click.option(
+        "--radius", "radius_mm", type=length, default="25mm", metavar="LENGTH", help="Radius of the mirror at its foot."
+    ),
     click.option(
         "--tall",
         "height_mm",
@@ -137,6 +141,7 @@ def anamorphosis(**params: Any) -> None:
     if len(paths) == 1 and paths[0].lower().endswith(".json"):
         from vectorplot.scene.scene import Scene
 
+        _none_given(of_draw)
         source = ReadSource(paths, *fineness, scene=Scene(()))
 
     def picture(scene: Scene, report: Report) -> Drawing:
@@ -158,6 +163,15 @@ def anamorphosis(**params: Any) -> None:
         jobs=params["jobs"],
         beside=beside,
     )
+
+
+def _none_given(of_draw: Collection[str]) -> None:
+    """Bad usage for options that say how a drawing is made, where one is read."""
+    context = click.get_current_context()
+    for option in context.command.params:
+        given = context.get_parameter_source(str(option.name)) is click.core.ParameterSource.COMMANDLINE
+        if given and option.name in of_draw:
+            raise click.UsageError(f"{option.opts[0]} does not go with a drawing that was saved: it is bent as it is")
 
 
 def _drawn(source: Source, told: Told, scene: Scene, report: Report) -> Drawn:
