@@ -554,6 +554,16 @@ def test_right_drawings_of_surfaces_are_not_called_wrong(name, hidden):
     assert all(any(what in line for what in open_) for line in unproven)
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("hidden", ["none", "dashed", "solid"])
+def test_lines_that_glass_bends_are_not_proved_and_not_called_wrong(hidden):
+    scene = vp.read(DATA / "pool.scene")
+    drawing = vp.draw(scene, hidden=hidden)
+    wrong, unproven, _ = told(drawing, certificate(scene, drawing, hidden=hidden))
+    assert not wrong and "strokes of the kind refracted" in unproven
+    assert hidden == "none" or "that hidden lines behind glass are complete" in unproven
+
+
 @pytest.fixture(scope="module")
 def drawn_surfaces():
     """Scenes of surfaces with all their lines, as in a file."""

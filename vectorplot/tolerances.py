@@ -33,8 +33,8 @@ NO_CAD_NORMAL = 1e-6
 face could, its surface has no normal there: at the tip of a cone, the pole of a ball."""
 
 CAD_EDGE_OFF_FACE = 1e-4
-"""An edge of a part lies on its faces if it is no farther off than this part of the body, a fiftieth of a mm on a page of
-200 mm: files of other programs are off by 1e-5 to 6e-5. A body with an edge farther off is drawn from its triangles."""
+"""An edge of a part lies on its faces if it is no farther off than this part of the body, a fiftieth of a mm on a page
+of 200 mm: files of other programs are off by 1e-5 to 6e-5. A body with an edge farther off is drawn from triangles."""
 
 RING_OPEN = 1e-5
 """Edges of a part end where the next ones begin if they end no farther from there than this part of their face, in u

@@ -41,7 +41,6 @@ SCENES = (
         "patterns",
         "pencil",
         "plate",
-        "pool",
     ),
     *("removed_faces", "shadows", "table", "three_bars", "town", "translational_sweep", "tube"),
 )

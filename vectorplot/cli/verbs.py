@@ -82,7 +82,7 @@ def meant_option(error: click.NoSuchOption) -> str:
     ]
     meant, long = error.option_name.lstrip("-").lower(), [name[2:] for name in known if name[:2] == "--"]
     begun = [name for name in long if name.startswith(meant)]
-    near = begun[0] if len(begun) == 1 else nearest(meant, long)
+    near = nearest(meant, long) or (begun[0] if len(begun) == 1 else "")
     if near:
         return f" Did you mean '--{near}'?"
     others = [

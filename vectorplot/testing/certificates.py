@@ -20,6 +20,7 @@ from vectorplot.curves.placed_curves import FunctionCurve
 from vectorplot.drawing.drawing import Drawing
 from vectorplot.drawing.finishing import DASH_MM
 from vectorplot.drawing.pens import Style, style_of_scene
+from vectorplot.effects.glass import refracting_items
 from vectorplot.geometry import ragged
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
@@ -67,6 +68,7 @@ from vectorplot.tolerances import (
     ROUNDING,
 )
 from vectorplot.visibility.polyhedra.lines import kinds_of
+from vectorplot.visibility.projected_faces import project_faces
 from vectorplot.words import DRAWN, LineKind, line_kinds
 
 if TYPE_CHECKING:
@@ -228,6 +230,9 @@ def certificate(
     paper = Paper(Page(drawing.width_mm, drawing.height_mm, 0.0), fit=True)
     prepared = prepared_scene(given, camera, paper, None, None)
     view, items = look(prepared.scene, prepared.camera), prepared.scene.items
+    # What is behind glass that refracts light is seen bent, elsewhere, or not at all: not as hidden, either.
+    bends = refracting_items(prepared.scene, view, project_faces(view))
+    hides = view.occludes | bends
     triangles, owner = _triangles(view)
     world, first = prepared.scene.vertices, view.item_vertices
     found = json.loads(json_bytes(drawing))
@@ -241,7 +246,7 @@ def certificate(
     rows = image.image_rows(np.array(found["page_from_world"]), np.concatenate(netted))
     nets = _within_budget([_nets(one, rows, smooth_mm) for one in parts])
     parts = [one if net else () for one, net in zip(parts, nets, strict=True)]
-    partial = _broken(drawing)
+    partial = _broken(drawing) or ("hidden lines behind glass" if bends.any() and hidden != "none" else "")
     said = [f"that {partial} are complete"] if partial else []
     content: dict[str, Any] = {
         "format": checker.FORMATS[1],
@@ -258,7 +263,7 @@ def certificate(
         "items": [
             {
                 "name": item.name,
-                "hides": bool(view.occludes[number]),
+                "hides": bool(hides[number]),
                 "smooth": not isinstance(item.shape, Mesh),
                 **_conditions(item, parts[number]),
                 "isophotes": _lights(prepared.scene, view, item) if parts[number] else [],
