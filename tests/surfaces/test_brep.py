@@ -7,8 +7,8 @@ import pytest
 from support.breps import rod
 
 from vectorplot.curves.splines import SplineCurve
-from vectorplot.surfaces.brep import Plane, Transposed, TurnedCircle, TurnedLine
-from vectorplot.surfaces.surface import Domain, first_jets, second_jets
+from vectorplot.surfaces.brep import Plane, TurnedCircle, TurnedLine
+from vectorplot.surfaces.surface import Domain, Transposed, first_jets, second_jets
 from vectorplot.surfaces.swept import Screw, Swept
 
 DOMAIN = Domain(0.0, 2.0, -1.0, 1.0)
@@ -19,7 +19,7 @@ FACES = {
     "cone": TurnedLine(DOMAIN, 3.0, 0.6, 0.8),
     "ball": TurnedCircle(DOMAIN, 0.0, 2.0),
     "torus": TurnedCircle(DOMAIN, 3.0, 1.0),
-    "turned spline": Transposed(Swept(MERIDIAN, Screw(), 0.0, 2.0 * np.pi), DOMAIN),
+    "turned spline": Transposed(Swept(MERIDIAN, Screw(), 0.0, 2.0 * np.pi), DOMAIN, embedded=True),
 }
 
 

@@ -10,7 +10,8 @@ from hypothesis import strategies as st
 import vectorplot as vp
 from vectorplot.io import parse_scene
 from vectorplot.surfaces import Cone, Cylinder, Frustum, PlacedSurface, Torus
-from vectorplot.surfaces.unrolled import Turned, Unrolled
+from vectorplot.surfaces.surface import Domain, Transposed
+from vectorplot.surfaces.unrolled import Unrolled
 
 
 def surface_of(text):
@@ -55,7 +56,7 @@ def test_a_cone_becomes_a_sector():
     [
         Cylinder(2.0, 0.0, 2.0, depth=0.7),
         Cone(1.0, 0.2, 1.0, depth_slope=0.4),
-        Turned(Cylinder(1.0, 0.0, 3.0)),
+        Transposed(Cylinder(1.0, 0.0, 3.0), Domain(0.0, 3.0, 0.0, 2.0 * np.pi, closed_v=True)),
         surface_of(TANGENTS),
         PlacedSurface(Frustum(1.0, 0.3, 2.0), np.diag([2.0, 2.0, 2.0]), (5, 6, 7)),
     ],
@@ -68,7 +69,7 @@ def test_lengths_of_straight_ways_in_the_parameters_are_kept(surface, seed):
     (u0, u1), (v0, v1) = places(surface, seed, 2)
     way = np.linspace(0.0, 1.0, 2001)
     u, v = u0 + way * (u1 - u0), v0 + way * (v1 - v0)
-    flat = unrolled.placed(v, u) if isinstance(unrolled.surface, Turned) else unrolled.placed(u, v)
+    flat = unrolled.placed(v, u) if isinstance(unrolled.surface, Transposed) else unrolled.placed(u, v)
     # Both are polygons of the same chords, whose sums differ by the cube of a step.
     assert length_of_curve(flat) == pytest.approx(length_of_curve(surface.points(u, v)), rel=3e-6)
     assert domain.size[0] > 0.0

@@ -17,12 +17,12 @@ from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.budget import may_stop
 from vectorplot.geometry.vectors import dot, norm
 from vectorplot.io.opencascade import Numbers, explored, occ
-from vectorplot.surfaces.brep import BrepEdges, BrepFace, Plane, Transposed, TurnedCircle, TurnedLine
+from vectorplot.surfaces.brep import BrepEdges, BrepFace, Plane, TurnedCircle, TurnedLine
 from vectorplot.surfaces.parameter_regions import bounds_of_loops, parameter_region
 from vectorplot.surfaces.placed_surface import PlacedSurface
 from vectorplot.surfaces.splines import SplineSurface
 from vectorplot.surfaces.stacked import unit_normals
-from vectorplot.surfaces.surface import Domain, OverDomain, second_jets
+from vectorplot.surfaces.surface import Domain, OverDomain, Transposed, second_jets
 from vectorplot.surfaces.swept import Screw, Swept
 from vectorplot.tolerances import CAD_EDGE_OFF_FACE, PIECES_OFF_EDGE, RING_OPEN
 
@@ -305,7 +305,7 @@ def _spline(surface: Any, kind: str, ends: Floats) -> Callable[[Domain], PlacedS
     axes = np.array([across, np.cross(up, across), up])
     meridian = SplineCurve(matmul(np.asarray(curve.controls) - origin, axes.T), curve.knots, curve.order, curve.weights)
     round_ = Swept(meridian, Screw(), 0.0, 2.0 * np.pi)
-    return lambda domain: PlacedSurface(Transposed(round_, domain), axes, origin)
+    return lambda domain: PlacedSurface(Transposed(round_, domain, embedded=True), axes, origin)
 
 
 def _extruded(curve: SplineCurve, way: Floats, domain: Domain) -> PlacedSurface:

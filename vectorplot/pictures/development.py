@@ -50,8 +50,8 @@ from vectorplot.scene.placement import page_of
 from vectorplot.scene.scene import Scene
 from vectorplot.surfaces.capped_bodies import Capped
 from vectorplot.surfaces.placed_surface import PlacedSurface
-from vectorplot.surfaces.surface import Surface, is_parametrised, normals
-from vectorplot.surfaces.unrolled import Turned, Unrolled
+from vectorplot.surfaces.surface import Surface, Transposed, is_parametrised, normals
+from vectorplot.surfaces.unrolled import Unrolled
 from vectorplot.tolerances import COINCIDENT_MM, LEAST_DIVISOR, LEVEL_STEP_OF_DOMAIN, NO_AZIMUTH_SINE
 from vectorplot.words import LineKind, check_word
 
@@ -387,7 +387,7 @@ def _curves_on_surface(
 ) -> Iterator[Strokes2D]:
     """Parameter lines, curves, sections, and where other items meet the surface."""
     surface, lines = unrolled.surface, item.curves
-    domain, swapped = surface.domain, isinstance(surface, Turned)
+    domain, swapped = surface.domain, isinstance(surface, Transposed)
     across, along = (lines.rows, lines.columns) if swapped else (lines.columns, lines.rows)
     us, vs = domain.grid(max(across, 1), max(along, 1))
     us, vs = us[0 if not domain.closed_u else 1 : -1][: 0 if across < 2 else None], vs[1:-1][: 0 if along < 2 else None]
@@ -432,7 +432,7 @@ def _labels_on_surface(
         u, v = np.clip(u + step_u, low[0], high[0]), np.clip(v + step_v, low[1], high[1])
     near = norm(surface.points(u, v) - at) <= tolerance
     # Level is what leads to the right as one looks at the normal, also where u and v have changed places.
-    normal = normals(surface, u, v) * (-1.0 if isinstance(surface, Turned) else 1.0)
+    normal = normals(surface, u, v) * (-1.0 if isinstance(surface, Transposed) else 1.0)
     level = _level(normal / np.maximum(norm(normal), LEAST_DIVISOR)[:, None])
     step_u, step_v = _in_parameters(surface, u, v, level)
     least = min(domain.u_end - domain.u_start, domain.v_end - domain.v_start)

@@ -17,7 +17,7 @@ from vectorplot.geometry.vectors import from_components
 from vectorplot.surfaces.parameter_regions import ParameterRegions
 from vectorplot.surfaces.placed_surface import MovableSurface, PlacedSurface
 from vectorplot.surfaces.quadrics import EllipticSections, Profile
-from vectorplot.surfaces.surface import Domain, FirstJets, SecondJets, Surface
+from vectorplot.surfaces.surface import Domain
 
 # The surfaces of faces, with the parameters that CAD systems give them, over any part of their domains.
 
@@ -107,44 +107,6 @@ class TurnedCircle(_Turned):
     def _profile(self, v: Floats) -> Profile:
         across, up = self.minor * np.cos(v), self.minor * np.sin(v)
         return (self.major + across, up), (-up, across), (-across, -up)
-
-
-@dataclass(frozen=True, eq=False)
-class Transposed:
-    """A surface with u in place of v over a domain: embedded, as faces of bodies are."""
-
-    surface: Surface
-    domain: Domain
-
-    embedded = True
-
-    def points(self, u: Floats, v: Floats) -> Floats:
-        """(..., 3) points."""
-        return self.surface.points(v, u)
-
-    def partials(self, u: Floats, v: Floats) -> tuple[Floats, Floats]:
-        """(..., 3) derivatives by u and by v."""
-        by_v, by_u = self.surface.partials(v, u)
-        return by_u, by_v
-
-    def second_partials(self, u: Floats, v: Floats) -> tuple[Floats, Floats, Floats]:
-        """(..., 3) second derivatives: by u twice, by u and v, by v twice."""
-        vv, uv, uu = self.surface.second_partials(v, u)
-        return uu, uv, vv
-
-    def first_jets(self, u: Floats, v: Floats) -> FirstJets:
-        """(..., 3) points and derivatives by u and by v."""
-        from vectorplot.surfaces.surface import first_jets
-
-        points, by_v, by_u = first_jets(self.surface, v, u)
-        return points, by_u, by_v
-
-    def second_jets(self, u: Floats, v: Floats) -> SecondJets:
-        """(..., 3) these, and the second derivatives: by u twice, by u and v, by v twice."""
-        from vectorplot.surfaces.surface import second_jets
-
-        points, by_v, by_u, vv, uv, uu = second_jets(self.surface, v, u)
-        return points, by_u, by_v, uu, uv, vv
 
 
 # Bodies.

@@ -57,6 +57,11 @@ class Domain:
             )
 
     @property
+    def transposed(self) -> Domain:
+        """The domain with u and v in place of each other."""
+        return Domain(self.v_start, self.v_end, self.u_start, self.u_end, self.closed_v, self.closed_u)
+
+    @property
     def size(self) -> tuple[float, float]:
         """Lengths of the ranges of u and v."""
         return self.u_end - self.u_start, self.v_end - self.v_start
@@ -228,3 +233,36 @@ class OverDomain:
     def second_partials(self, u: Floats, v: Floats) -> tuple[Floats, Floats, Floats]:
         """(..., 3) second derivatives: by u twice, by u and v, by v twice."""
         return self.surface.second_partials(u, v)
+
+
+@dataclass(frozen=True, eq=False)
+class Transposed:
+    """A surface with u in place of v over a domain; embedded: whether it meets itself nowhere, as faces of bodies."""
+
+    surface: Surface
+    domain: Domain
+    embedded: bool = False
+
+    def points(self, u: Floats, v: Floats) -> Floats:
+        """(..., 3) points."""
+        return self.surface.points(v, u)
+
+    def partials(self, u: Floats, v: Floats) -> tuple[Floats, Floats]:
+        """(..., 3) derivatives by u and by v."""
+        by_v, by_u = self.surface.partials(v, u)
+        return by_u, by_v
+
+    def second_partials(self, u: Floats, v: Floats) -> tuple[Floats, Floats, Floats]:
+        """(..., 3) second derivatives: by u twice, by u and v, by v twice."""
+        vv, uv, uu = self.surface.second_partials(v, u)
+        return uu, uv, vv
+
+    def first_jets(self, u: Floats, v: Floats) -> FirstJets:
+        """(..., 3) points and derivatives by u and by v."""
+        points, by_v, by_u = first_jets(self.surface, v, u)
+        return points, by_u, by_v
+
+    def second_jets(self, u: Floats, v: Floats) -> SecondJets:
+        """(..., 3) these, and the second derivatives: by u twice, by u and v, by v twice."""
+        points, by_v, by_u, vv, uv, uu = second_jets(self.surface, v, u)
+        return points, by_u, by_v, uu, uv, vv

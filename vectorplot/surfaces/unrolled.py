@@ -13,7 +13,7 @@ from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.budget import may_stop
 from vectorplot.geometry.elementary import arcsin
 from vectorplot.geometry.vectors import component_sum, cross, dot, norm
-from vectorplot.surfaces.surface import Domain, Surface, normals, second_jets
+from vectorplot.surfaces.surface import Surface, Transposed, normals, second_jets
 from vectorplot.tolerances import DEVELOPABLE_ANGLE, LEAST_DIVISOR, UNROLLED_OF_LENGTH
 
 NODES = 8
@@ -21,33 +21,6 @@ NODES = 8
 
 COARSEST, FINEST = 32, 1 << 13
 """So many steps around the surface are the fewest, and the most."""
-
-
-@dataclass(frozen=True, eq=False)
-class Turned:
-    """A surface with its parameters changed for each other: (v, u) in place of (u, v)."""
-
-    surface: Surface
-
-    @property
-    def domain(self) -> Domain:
-        """Where the surface is defined."""
-        own = self.surface.domain
-        return Domain(own.v_start, own.v_end, own.u_start, own.u_end, own.closed_v, own.closed_u)
-
-    def points(self, u: Floats, v: Floats) -> Floats:
-        """(..., 3) points."""
-        return self.surface.points(v, u)
-
-    def partials(self, u: Floats, v: Floats) -> tuple[Floats, Floats]:
-        """(..., 3) derivatives by u and by v."""
-        by_u, by_v = self.surface.partials(v, u)
-        return by_v, by_u
-
-    def second_partials(self, u: Floats, v: Floats) -> tuple[Floats, Floats, Floats]:
-        """(..., 3) second derivatives."""
-        uu, uv, vv = self.surface.second_partials(v, u)
-        return vv, uv, uu
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,7 +44,7 @@ class Unrolled:
     def of(cls, surface: Surface) -> Unrolled:
         """That of a surface with straight lines in one direction. Errors: InputError for one that has none, and for one
         that is not developable."""
-        for one in (surface, Turned(surface)):
+        for one in (surface, Transposed(surface, surface.domain.transposed)):
             domain = one.domain
             u, v = (grid.ravel() for grid in np.meshgrid(*domain.grid(48, 6), indexing="ij"))
             points = one.points(u, v)
@@ -109,7 +82,7 @@ class Unrolled:
         tangent, left = self._frame(u)
         arm = self.surface.points(u, v) - origin
         # Seen from where the normal of the surface points to, whichever of its parameters is u here.
-        side = -1.0 if isinstance(self.surface, Turned) else 1.0
+        side = -1.0 if isinstance(self.surface, Transposed) else 1.0
         x, y = dot(arm, tangent), side * dot(arm, left)
         cosine, sine = np.cos(turn), side * np.sin(turn)
         at = at * np.array([1.0, side])
