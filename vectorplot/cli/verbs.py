@@ -8,7 +8,7 @@ import click
 
 from vectorplot import __version__
 from vectorplot.errors import printable
-from vectorplot.words import nearest
+from vectorplot.words import nearest, one_slip
 
 COMMANDS = {
     "draw": "draw",
@@ -82,7 +82,8 @@ def meant_option(error: click.NoSuchOption) -> str:
     ]
     meant, long = error.option_name.lstrip("-").lower(), [name[2:] for name in known if name[:2] == "--"]
     begun = [name for name in long if name.startswith(meant)]
-    near = nearest(meant, long) or (begun[0] if len(begun) == 1 else "")
+    slipped = any(one_slip(meant, name) for name in long)
+    near = begun[0] if len(begun) == 1 and not slipped else nearest(meant, long)
     if near:
         return f" Did you mean '--{near}'?"
     others = [
