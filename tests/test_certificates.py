@@ -531,6 +531,7 @@ def small_pictures():
 
 
 @pytest.mark.slow
+@pytest.mark.spread
 @pytest.mark.parametrize("name", list(small_pictures()))
 @pytest.mark.parametrize("eye", [(8.0, -11.0, 6.0), (2.0, 12.0, 0.5)])
 def test_surfaces_of_all_families_are_proved(name, eye):
@@ -542,7 +543,7 @@ def test_surfaces_of_all_families_are_proved(name, eye):
 
 
 @pytest.mark.slow
-@pytest.mark.spread(parts=5)
+@pytest.mark.spread(parts=7)
 @pytest.mark.parametrize("hidden", ["none", "dashed", "solid"])
 @pytest.mark.parametrize("name", SMOOTH)
 def test_right_drawings_of_surfaces_are_not_called_wrong(name, hidden):

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 import numpy as np
 import pytest
 import shapely
@@ -69,10 +71,15 @@ def test_crosses_stand_at_the_corners_of_the_part_by_the_pen_of_the_picture():
         assert middles.tolist() == [[10.0, 10.0], [10.0, 70.0], [70.0, 10.0], [70.0, 70.0]]
 
 
+@cache
+def page_to_cut(curves):
+    return vp.draw("data/mixed.scene", page="A3", curves=curves, hatch=vp.Hatching("tone", 2.0), frame=True)
+
+
 @pytest.mark.parametrize("curves", ["bezier", "polyline"])
 @pytest.mark.parametrize(("columns", "rows"), [(2, 2), (3, 1), (1, 1)])
 def test_sheets_together_are_the_page(columns, rows, curves):
-    whole = vp.draw("data/mixed.scene", page="A3", curves=curves, hatch=vp.Hatching("tone", 2.0), frame=True)
+    whole = page_to_cut(curves)
     sheets = tiled(whole, columns, rows)
     found = put_together(sheets, whole.width_mm / columns, whole.height_mm / rows)
     expected = strokes_of(whole)
