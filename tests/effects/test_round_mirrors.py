@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 import vectorplot as vp
-from vectorplot.effects.round_mirrors import RoundMirror, met_by_sight, shown_points
+from vectorplot.effects.round_mirrors import RoundMirror, inside_outline, met_by_sight, shown_points
 from vectorplot.scene import look
 from vectorplot.surfaces import Capped, Cone, Ellipsoid, Sphere, Torus, rod
 
@@ -75,6 +75,19 @@ def test_points_seem_to_be_on_the_ray_that_shows_them():
     seeming, seen = mirror.virtual(view, points, none)
     found, _ = shown_points(mirror, view, points)
     assert np.abs(met_by_sight(mirror, view, seeming[:, seen]) - found[:, seen]).max() < 1e-7
+
+
+@pytest.mark.parametrize("axes", [(1.0, 1.0, 1.0), (2.0, 1.0, 0.4), (2.0, 0.02, 2.0), (0.02, 0.02, 2.0)])
+def test_how_far_inside_of_the_outline_places_are(axes):
+    mirror, view = mirror_and_view(Ellipsoid(axes), True)
+    # The image of an ellipsoid under parallel rays is an ellipse.
+    squares, axis = np.linalg.eigh(mirror.frame[:, :2].T @ mirror.frame[:, :2])
+    angle = np.linspace(0.0, 2.0 * np.pi, 500)
+    circle, radii = np.stack([np.cos(angle), np.sin(angle)]), np.sqrt(squares)[:, None]
+    distance = np.geomspace(1e-4, 1e-3, len(angle)) * (radii.min() ** 2 / radii.max())
+    image = mirror.centre[:2, None] + axis @ (radii * circle - distance * unit(circle / radii))
+    place = met_by_sight(mirror, view, np.concatenate([image, np.full((1, len(angle)), -9.0)]))
+    np.testing.assert_allclose(inside_outline(mirror, view, place), distance, rtol=0.01)
 
 
 def test_other_shapes_are_no_round_mirrors():

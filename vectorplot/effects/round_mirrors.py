@@ -63,11 +63,6 @@ class RoundMirror:
         inverse = rows / float((frame[0] * rows[:, 0]).sum())
         return cls(view.points_of(centre[None])[:, 0], frame, inverse, form, low, high, is_round)
 
-    @property
-    def radius_of_section(self) -> float:
-        """The smaller semi-axis of the largest section across the axis."""
-        return float(np.sqrt((self.frame[:2] * self.frame[:2]).sum(axis=1)).min())
-
     def local(self, points: Floats) -> Floats:
         """(3,n) s of points (3,n)."""
         return np.asarray(matmul(self.inverse.T, points - self.centre[:, None]))
@@ -269,9 +264,15 @@ def _way(view: View, place: Floats, points: Floats) -> Floats:
     return np.asarray(np.sqrt(dot(off, off)) + np.sqrt(dot(to_eye, to_eye)))
 
 
-def cosines_at(mirror: RoundMirror, view: View, place: Floats) -> Floats:
-    """(n,) the cosines of the angles between normals at places (3,n) of a mirror and the ways to the eye."""
-    return np.asarray(dot(_towards(view, place), _normals(mirror, place)))
+def inside_outline(mirror: RoundMirror, view: View, place: Floats) -> Floats:
+    """(n,) how far places (3,n) of a mirror are inside of its outline, across the sight rays, to first order: of the
+    discriminant of its equation along these rays, which is 0 in the outline, as a part of the gradient."""
+    way = _towards(view, place)
+    t = matmul(mirror.inverse.T, way)
+    slope, square = mirror._polar(mirror.local(place), 1.0, t, 0.0), mirror._polar(t, 0.0, t, 0.0)
+    across = matmul(mirror.inverse, t * [[1.0], [1.0], [mirror.form[0]]])
+    gradient = 2.0 * slope * across - square * _slopes(mirror, place)
+    return np.asarray(slope * slope / np.maximum(np.sqrt(dot(gradient, gradient)), LEAST_DIVISOR))
 
 
 def _slopes(mirror: RoundMirror, place: Floats) -> Floats:

@@ -12,7 +12,7 @@ from dataclasses import replace
 import numpy as np
 
 from vectorplot.arrays import Floats
-from vectorplot.effects.round_mirrors import RoundMirror, cosines_at, met_by_sight
+from vectorplot.effects.round_mirrors import RoundMirror, inside_outline, met_by_sight
 from vectorplot.errors import InputWarning
 from vectorplot.geometry.budget import in_turn, unresolved
 from vectorplot.geometry.component_arrays import dot
@@ -111,8 +111,7 @@ def _doubles(view: View, mirror: RoundMirror, shown: Seeming, how: Depth) -> Dou
     nearer = np.stack([_part_of_way(view, *ends) for ends in ((here, start), (there, end))])
     none = np.zeros(len(seen), dtype=np.intp)
     found = Doubles(start, end, here, there, nearer, some.item, some.smooth, seen.hidden_by, none)
-    # What is seen a cosine c from grazing is half of c squared radii inside of the outline.
-    inside = [0.5 * mirror.radius_of_section * cosines_at(mirror, view, side) ** 2 for side in (here, there)]
+    inside = [inside_outline(mirror, view, side) for side in (here, there)]
     return found.take(np.maximum(*inside) > OUTLINE * how.tolerance)
 
 
