@@ -171,3 +171,31 @@ def test_at_any_size_and_place_water_bends_alike(camera):
         eye, target = (tuple((scale * np.array(one) + shift).tolist()) for one in (camera.eye, camera.target))
         there = vp.draw(moved, vp.Camera(eye, target, parallel=camera.parallel), page=SQUARE)
         assert cKDTree(shown).query(strokes_of(there, "refracted")[0].reshape(-1, 2))[0].max() < 1e-4
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("camera", [CAMERA, PERSPECTIVE], ids=["parallel", "perspective"])
+@pytest.mark.parametrize("low", [(-1.0, 2.0, 0.0), (-1.0, -0.5, 0.2)], ids=["behind", "within"])
+def test_what_is_in_glass_behind_glass_is_seen_once(camera, low):
+    glass = vp.Item("GLASS", box((-2, -1, 0), (2, 1, 2)), material=vp.Material("transparent", refraction=1.5))
+    high = np.add(low, (1.5, 1.0, 1.0))
+    thing = vp.Item("THING", box(tuple(np.add(low, 0.2)), tuple(high - 0.2)))
+    bending, clear = (
+        strokes_of(
+            vp.draw(
+                vp.Scene(
+                    (
+                        vp.Item("OTHER", box(low, tuple(high)), material=vp.Material("transparent", refraction=n)),
+                        glass,
+                        thing,
+                    )
+                ),
+                replace(camera, eye=(0.5, -12.0, 1.5), target=(0.0, 0.0, 1.0)),
+                page=SQUARE,
+            ),
+            "refracted",
+        )
+        for n in (1.3, 1.0)
+    )
+    lengths = [np.hypot(*(s[i == 2][:, 1] - s[i == 2][:, 0]).T).sum() for s, i in (bending, clear)]
+    assert lengths[0] == pytest.approx(lengths[1], rel=1e-6) and lengths[0] > 1.0

@@ -93,7 +93,8 @@ def with_refractions(
         first += len(fronts)
     if every > how.most:
         _tell_what_is_left()
-    return with_more(lines, seen, shown_lines(shapes, _joined(panes), found, LineKind.REFRACTED, window, how))
+    more = shown_lines(_with_panes(shapes), _joined(panes), found, LineKind.REFRACTED, window, how)
+    return with_more(lines, seen, more)
 
 
 def _in_window(sources: LineSources, panes: Mirrors, window: Window) -> list[int]:
@@ -113,6 +114,13 @@ def _tell_what_is_left() -> None:
 def _bending(shapes: LineSources) -> Bools:
     """(i,) the items that bend rays."""
     return refracting_items(shapes.scene, shapes.view, shapes.faces)
+
+
+def _with_panes(shapes: LineSources) -> LineSources:
+    """The same where refracting solids hide too: what a solid shows behind another one is seen through that only."""
+    bends = _bending(shapes)
+    view = replace(shapes.view, occludes=shapes.view.occludes | bends)
+    return replace(shapes, view=view, solid=shapes.solid | bends)
 
 
 def _joined(parts: list[Mirrors]) -> Mirrors:
@@ -266,7 +274,7 @@ def _in_perspective(shapes: LineSources, window: Window | None, how: Depth) -> L
             found.append(replace(doubles, mirror=doubles.mirror + first))
             left -= 1
         panes.append(own)
-    return shown_lines(shapes, _joined(panes), found, LineKind.REFRACTED, window, how)
+    return shown_lines(_with_panes(shapes), _joined(panes), found, LineKind.REFRACTED, window, how)
 
 
 @dataclass(frozen=True, eq=False)
