@@ -39,8 +39,13 @@ def exact_bodies(scene: Scene, kinds: Set[LineKind], hatch: Hatching | Stippling
 def _why_not(item: Item, kinds: Set[LineKind], hatch: Hatching | Stippling | None) -> str:
     """Why an item stays triangles; nothing where it does not."""
     own = kinds if item.lines is None else frozenset(map(LineKind.from_word, item.lines))
-    others = sorted(own - EXACT_KINDS)
-    asked = item.curves.isophotes or item.curves.sections or item.curves.integral or item.curves.contours
+    curves, triangles_only = item.curves, {LineKind.OUTLINE, LineKind.EDGES}
+    if curves.isophotes:
+        triangles_only.add(LineKind.ISOPHOTE)
+    if curves.sections or curves.contours:
+        triangles_only.add(LineKind.SECTION)
+    if curves.integral:
+        triangles_only.add(LineKind.INTEGRAL)
     if item.exact is None or item.exact.mesh is not item.shape:
         return "it is cut"
     hatching = hatch if item.hatch is None else item.hatch
@@ -50,8 +55,8 @@ def _why_not(item: Item, kinds: Set[LineKind], hatch: Hatching | Stippling | Non
         return "its material"
     if item.patterns or item.added_edges is not None:
         return "what lies on its faces"
-    if {LineKind.OUTLINE, LineKind.EDGES} & own or (asked and others):
-        return "lines of kind " + ", ".join(kind.word for kind in others)
+    if triangles_only & own:
+        return "lines of kind " + ", ".join(kind.word for kind in sorted(triangles_only & own))
     return ""
 
 

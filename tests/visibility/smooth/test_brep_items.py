@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import warnings
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -122,6 +123,15 @@ def test_bodies_that_pierce_each_other_meet_where_one_asks_for_it():
     points = np.concatenate(met)
     assert np.abs(np.hypot(points[:, 0], points[:, 1]) - 1.0).max() < 1e-6
     assert np.abs(np.hypot(points[:, 0], points[:, 2] - 1.0) - 0.5).max() < 1e-6
+
+
+def test_only_kinds_of_lines_that_are_asked_for_keep_a_body_from_its_surfaces():
+    item = replace(rod_item(), curves=vp.SurfaceLines(isophotes=(0.5,)))
+    with pytest.warns(InputWarning, match="not exactly, for lines of kind isophote$"):
+        (left,) = exact_bodies(vp.Scene((item,)), line_kinds((*DRAWN, "isophote", "section", "parameter")), None).items
+    assert left.shape is rod().mesh
+    (made,) = exact_bodies(vp.Scene((item,)), line_kinds("contour,section"), None).items
+    assert made.shape is rod()
 
 
 @pytest.mark.slow
