@@ -36,8 +36,8 @@ AT_ONCE = 1 << 14
 
 @dataclass(frozen=True, eq=False)
 class RoundMirror:
-    """The points centre + s @ frame, in a view, where x^2 + y^2 + a z^2 + b z + c is 0 for s = (x, y, z), a, b, c being
-    its form, and z between low and high; inverse: of frame (3,3); a convex body is inside. As BentRays."""
+    """The points centre + s times frame, in a view, where x^2 + y^2 + a z^2 + b z + c is 0 for s = (x, y, z), a, b, c
+    being its form, and z between low and high; inverse: of frame (3,3); a convex body is inside. As BentRays."""
 
     centre: Floats
     frame: Floats
@@ -155,7 +155,8 @@ def _roots(square: Floats, linear: Floats, constant: Floats) -> tuple[Floats, Fl
     middle = -0.5 * (linear + np.copysign(np.sqrt(np.maximum(whole, 0.0)), linear))
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         one, two = middle / square, constant / middle
-    return tuple(np.where((whole >= 0.0) & np.isfinite(x), x, 0.0) for x in (one, two))  # type: ignore[return-value]
+    real = whole >= 0.0
+    return np.where(real & np.isfinite(one), one, 0.0), np.where(real & np.isfinite(two), two, 0.0)
 
 
 def shown_points(mirror: RoundMirror, view: View, points: Floats) -> tuple[Floats, Bools]:
