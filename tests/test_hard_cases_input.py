@@ -16,7 +16,8 @@ from functools import cache
 from pathlib import Path
 
 import pytest
-from fuzz.fuzz_oracle import cpu_seconds, finding
+from fuzz.fuzz_oracle import finding
+from support.pace import cpu_seconds
 from support.paths import PACKAGE
 
 from vectorplot.cli.main import run

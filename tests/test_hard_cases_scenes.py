@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import subprocess
 import sys
-import time
 
 import numpy as np
 import pytest
 from support.drawn import EVERY_EDGE, drawn, moved, on_page, plate, stroke_count
+from support.pace import cpu_seconds
 from support.paths import TESTS
 
 import vectorplot as vp
@@ -207,10 +207,9 @@ def cylinder(sides: int, rings: int) -> vp.Mesh:
 @pytest.mark.parametrize("lines", [("contour", "crease", "boundary"), EVERY_EDGE])
 def test_a_cylinder_along_its_axis_is_one_closed_stroke(lines: tuple[str, ...]) -> None:
     tube = scene_of(TUBE=cylinder(500, 12))
-    begin = time.process_time()
-    drawing = vp.draw(tube, vp.Camera.view("top", (0, 0, 0), 9), lines=lines, hidden="solid")
-    central = vp.draw(tube, vp.Camera((0, 0, 12), (0, 0, 0)), lines=lines)
-    assert time.process_time() - begin < 5.0
+    with cpu_seconds(5.0):
+        drawing = vp.draw(tube, vp.Camera.view("top", (0, 0, 0), 9), lines=lines, hidden="solid")
+        central = vp.draw(tube, vp.Camera((0, 0, 12), (0, 0, 0)), lines=lines)
     perimeter = 500 * 2 * np.sin(np.pi / 500)
     assert stroke_count(drawing) == 1
     assert drawn(drawing).length == pytest.approx(perimeter, rel=1e-4)
@@ -225,9 +224,8 @@ def test_a_honeycomb_of_161_cells_is_bounded_reports_progress_and_can_be_stopped
     assert len(scene.items) == 161
     camera = vp.Camera((9, -14, 20), (0, 0, 0))
     calls: list[tuple[str, float]] = []
-    begin = time.process_time()
-    drawing = vp.draw(scene, camera, hidden="solid", progress=lambda stage, part: calls.append((stage, part)))
-    assert time.process_time() - begin < 10.0
+    with cpu_seconds(10.0):
+        drawing = vp.draw(scene, camera, hidden="solid", progress=lambda stage, part: calls.append((stage, part)))
     of_stage: dict[str, list[float]] = {}
     for stage, part in calls:
         of_stage.setdefault(stage, []).append(part)
@@ -286,7 +284,7 @@ print(peak, peak - before, sure.sum(), wrong.sum(), (lines.hidden_by[which][sure
 @pytest.mark.hard(27)
 def test_a_million_triangles_stay_below_a_ceiling_and_agree_with_rays() -> None:
     here = TESTS
-    result = subprocess.run([sys.executable, "-c", MILLION, str(here)], capture_output=True, text=True, timeout=60)
+    result = subprocess.run([sys.executable, "-c", MILLION, str(here)], capture_output=True, text=True, timeout=120)
     assert result.returncode == 0, result.stderr
     peak, grown, sure, wrong, hidden = map(float, result.stdout.split())
     assert peak < 600 and grown < 400, "megabytes"

@@ -65,12 +65,12 @@ def test_a_chunk_on_another_thread_ends_where_it_may_stop_once_nobody_takes_it()
     began = time.monotonic()
 
     def long(chunk):
-        for _ in in_turn(range(2000)):
+        for _ in in_turn(range(20_000)):
             time.sleep(0.01)
 
     with threads(2), stopping(ask_after(5)), pytest.raises(StopError):
         list(mapped(long, range(2)))
-    assert time.monotonic() - began < 10.0
+    assert time.monotonic() - began < 100.0
 
 
 def test_pieces_are_put_together_and_the_work_may_stop_between_them():

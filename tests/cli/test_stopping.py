@@ -279,7 +279,7 @@ def test_nobody_reads_what_is_said(stream, place):
     arguments = ["draw", str(place), "-o", "-", "--format", "svg", "--explain"]
     with os.fdopen(writing, "wb") as pipe:
         others = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, stream: pipe}
-        result = subprocess.run([sys.executable, "-m", "vectorplot", *arguments], timeout=60, **others)
+        result = subprocess.run([sys.executable, "-m", "vectorplot", *arguments], timeout=120, **others)
     assert result.returncode == 1
     assert b"Traceback" not in (result.stderr or b"")
 

@@ -2,23 +2,20 @@
 
 from __future__ import annotations
 
-import signal
-import threading
 import time
 import traceback
 import warnings
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from random import Random
 from tempfile import TemporaryDirectory
-from types import FrameType
 
 from fuzz.fuzz_drawings import drawing_bytes
 from fuzz.fuzz_meshes import MESHES, mesh_bytes
 from fuzz.fuzz_molecules import MOLECULES, molecule_bytes
 from fuzz.fuzz_scenes import formula_text, scene_bytes
+from support.pace import TooLong, cpu_seconds
 
 import vectorplot as vp
 from vectorplot.errors import InputError, InputWarning
@@ -33,35 +30,12 @@ VERB_S = 30.0
 """A verb takes no more CPU seconds than this on a scene of a few small items."""
 
 
-class TooLong(BaseException):
-    """The time is up. No Exception, so that nothing in between takes it for one of its own."""
-
-
 @dataclass(frozen=True)
 class Finding:
     """What went wrong: in short, by which findings are told apart, and the whole story."""
 
     cause: str
     story: str
-
-
-@contextmanager
-def cpu_seconds(most: float) -> Iterator[None]:
-    """A block that is stopped by TooLong after so many CPU seconds; only the main thread can be stopped."""
-    if threading.current_thread() is not threading.main_thread():
-        yield
-        return
-
-    def stop(number: int, frame: FrameType | None) -> None:
-        raise TooLong
-
-    before = signal.signal(signal.SIGPROF, stop)
-    signal.setitimer(signal.ITIMER_PROF, most)
-    try:
-        yield
-    finally:
-        signal.setitimer(signal.ITIMER_PROF, 0.0)
-        signal.signal(signal.SIGPROF, before)
 
 
 def finding(work: Callable[[], object], seconds: float) -> Finding | None:

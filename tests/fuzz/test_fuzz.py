@@ -16,6 +16,7 @@ from fuzz.fuzz_oracle import FILES, TARGETS, VERBS, attack, finding, judged
 from fuzz.fuzz_scenes import formula_text, scene_bytes
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from support import pace
 from support.effort import examples, several
 
 from vectorplot.io.read_file import read
@@ -73,7 +74,7 @@ def test_arbitrary_bytes(tmp_path: Path, suffix: str) -> None:
 @pytest.mark.slow
 def test_the_campaign_runs_as_its_page_says(tmp_path: Path) -> None:
     command = [sys.executable, "tests/fuzz/campaign.py", "--target", "off", "--count", "20", "--keep", str(tmp_path)]
-    done = subprocess.run(command, cwd=Path(__file__).parents[2], capture_output=True, text=True, timeout=60)
+    done = subprocess.run(command, cwd=Path(__file__).parents[2], capture_output=True, text=True, timeout=120)
     assert done.stdout.startswith("off: 20 inputs in"), done.stderr
 
 
@@ -89,3 +90,14 @@ def test_the_oracle_finds_what_it_is_for(tmp_path: Path) -> None:
     assert too_long is not None and too_long.cause.startswith("too long")
     assert wrong is not None and wrong.cause.startswith("KeyError")
     assert set(VERBS) <= set(TARGETS)
+
+
+def test_on_a_slow_machine_there_is_more_time(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(pace, "BARE_S", 1e-6)
+    with pace.cpu_seconds(0.001):
+        for _ in range(10):
+            pace.bare_work()
+    monkeypatch.setattr(pace, "BARE_S", 1.0)
+    with pytest.raises(pace.TooLong, match=r"1\.0 times as long"), pace.cpu_seconds(0.01):
+        while True:
+            pace.bare_work()

@@ -86,14 +86,14 @@ def test_within_a_chunk_there_are_one_thread_and_idle_ones_and_what_was_said_of_
 
     def inner(chunk):
         assert np.geterr()["over"] == "ignore"
-        both.wait(9.0)
+        both.wait(60.0)
         alone = set(mapped(lambda _: threading.get_ident(), range(5)))
-        both.wait(9.0)
+        both.wait(60.0)
         if chunk == 0:
             first_is_done.set()
             return alone, alone
-        first_is_done.wait(9.0)
-        deadline = time.monotonic() + 9.0
+        first_is_done.wait(60.0)
+        deadline = time.monotonic() + 60.0
         while True:
             # As soon as the other chunk has been taken leave of, its thread helps.
             helped = set(mapped(lambda _: (time.sleep(0.002), threading.get_ident())[1], range(6)))

@@ -8,7 +8,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from fuzz.fuzz_oracle import cpu_seconds, finding
+from fuzz.fuzz_oracle import finding
+from support.pace import cpu_seconds
 
 from vectorplot.errors import InputError
 from vectorplot.geometry.weld import close_points

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import time
-
 import numpy as np
 import pytest
+from support.pace import cpu_seconds
 from support.sample_surfaces import FAMILIES, same_surface
 
 from vectorplot.errors import InputError
@@ -228,10 +227,8 @@ def test_polyhedra_have_no_parameter_lines_and_surfaces_no_lines_of_polyhedra_no
     ids=["grid", "isophotes", "sections", "levels", "list", "long", "deep"],
 )
 def test_wild_counts_are_refused_at_once(text):
-    start = time.process_time()
-    with pytest.raises(InputError):
+    with cpu_seconds(2.0), pytest.raises(InputError):
         parse_scene(text)
-    assert time.process_time() - start < 2.0
 
 
 @pytest.mark.hard(69)
@@ -275,7 +272,7 @@ def test_a_scene_without_surfaces_does_not_load_them():
         "import sys; from vectorplot.io.scene_language import parse_scene; parse_scene('A box 1 1 1');"
         "assert 'vectorplot.io.scenes.scene_families' not in sys.modules"
     )
-    subprocess.run([sys.executable, "-c", code], check=True, timeout=60)
+    subprocess.run([sys.executable, "-c", code], check=True, timeout=120)
 
 
 def test_surfaces_are_no_meshes():

@@ -25,7 +25,7 @@ from vectorplot.viewer.server import Server, serving
 pytestmark = pytest.mark.slow
 
 TEXT = 'title "Die"\npage 60x40 margin 2\ncamera eye 5 -7 4\nlight LAMP position 6 -5 8\nDIE red box solid 1 2 1\n'
-PATIENCE_MS = 30_000
+PATIENCE_MS = 120_000
 
 
 class Served:

@@ -16,7 +16,7 @@ from vectorplot.errors import InputError
 from vectorplot.geometry.solids import box
 from vectorplot.viewer.state import first_state
 
-PATIENCE_S = 20.0
+PATIENCE_S = 120.0
 TEXT = "page 60x40 margin 2\ncamera eye 5 -7 4\nDIE red box solid 1 2 1\n"
 SCENE = vp.Scene((vp.Item("die", box((1, 2, 1))),), camera=vp.Camera((4, -5, 3)), page=vp.Page(60, 40, 2))
 

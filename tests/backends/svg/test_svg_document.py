@@ -118,6 +118,5 @@ def test_300_000_points_take_little_more_than_their_text():
     start = time.process_time()
     " ".join(f"{x:.3f}" for x in points.ravel().tolist())
     bare = time.process_time() - start
-    print(f"{seconds:.3f} s, {seconds / len(points) * 1e6:.2f} us a point, {seconds / bare:.2f} times the bare cost")
     assert text.count(b"<polyline") == count
     assert seconds < 8.0 * bare

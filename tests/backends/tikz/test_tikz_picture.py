@@ -32,7 +32,7 @@ def set_by_latex(drawing, folder):
     latex = ["pdflatex", "-interaction=batchmode", "-halt-on-error", "document.tex"]
     subprocess.run(latex, cwd=folder, check=True, capture_output=True, timeout=120)
     poppler = ["pdftoppm", "-r", "150", "-singlefile", "document.pdf", "page"]
-    subprocess.run(poppler, cwd=folder, check=True, timeout=60)
+    subprocess.run(poppler, cwd=folder, check=True, timeout=120)
     log = (folder / "document.log").read_text(encoding="latin-1")
     return np.asarray(Image.open(folder / "page.ppm")).astype(int), log
 
