@@ -213,18 +213,18 @@ FEATURE_KINDS = (LineKind.SUGGESTIVE, LineKind.RIDGE, LineKind.VALLEY, LineKind.
 LIGHT_KINDS = (LineKind.TERMINATOR, LineKind.SHADOW)
 """The kinds of lines between light and dark, which are drawn only where they are asked for."""
 
-ON_THINGS = tuple(word for word in LINE_WORDS if word != LineKind.OUTLINE.word)
-"""Those of them that lie on one thing each; an outline is that of all together."""
+_ASKED_FOR = [kind.word for kind in (LineKind.OUTLINE, *FEATURE_KINDS, *LIGHT_KINDS)]
 
-_DEFAULT = tuple(word for word in ON_THINGS if word not in [kind.word for kind in (*FEATURE_KINDS, *LIGHT_KINDS)])
+ON_THINGS = tuple(word for word in LINE_WORDS if word not in _ASKED_FOR)
+"""The kinds of lines that lie on one thing each and need not be asked for: all lines of hidden lines by erasing."""
 
-DRAWN = tuple(word for word in _DEFAULT if word != LineKind.EDGES.word)
+DRAWN = tuple(word for word in ON_THINGS if word != LineKind.EDGES.word)
 """The kinds of lines that are drawn where nothing else is said."""
 
 SUBDIVISIONS = ("catmull-clark", "loop")
 """The schemes of subdivision."""
 
-WIRES = tuple(word for word in _DEFAULT if word != LineKind.INTERSECTION.word)
+WIRES = tuple(word for word in ON_THINGS if word != LineKind.INTERSECTION.word)
 """Those of a wireframe: every edge, and no line in which things pierce each other."""
 
 
