@@ -76,6 +76,7 @@ def assert_seen(scene, camera, count=6000, steps=5.0, rarely=20.0, **options):
     return drawing
 
 
+@pytest.mark.spread(parts=2)
 @pytest.mark.parametrize("view", CAMERAS)
 @pytest.mark.parametrize("lights", [(), (LAMP,), (LAMP, SUN)], ids=["dark", "lamp", "two lights"])
 @pytest.mark.parametrize("seed", [1, 2, 3])

@@ -29,9 +29,8 @@ def test_drawings(name, hidden):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", ["boxes", "both"])
-def test_paintings(name):
-    scene = scenes()[name]
+def test_paintings():
+    scene = scenes()["boxes"]
     made = {write(vp.paint(scene, jobs=jobs, lines="contour", tolerance_mm=1.0), "json") for jobs in MANY}
     assert len(made) == 1
 

@@ -206,7 +206,7 @@ def test_a_picture_ends_at_its_margin():
 
 @pytest.mark.parametrize("suffix", ["svg", "pdf", "ps", "png", "json"])
 def test_all_formats_write_them(suffix, tmp_path):
-    vp.save(vp.paint(heap(4, 6)), tmp_path / f"heap.{suffix}")
+    vp.save(vp.paint(heap(4, 6), width=60), tmp_path / f"heap.{suffix}")
     assert (tmp_path / f"heap.{suffix}").stat().st_size > 1000
 
 

@@ -191,7 +191,7 @@ def cube_text(more: str = "", lights: str = "()") -> str:
 def every_loaded() -> dict[str, set[str]]:
     """The modules that painting each scene in a new process loads."""
     code = LOADED.format(codes=list(SCENES.values()))
-    found = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, timeout=120)
+    found = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, timeout=600)
     return dict(zip(SCENES, map(set, map(str.split, found.stdout.splitlines())), strict=True))
 
 

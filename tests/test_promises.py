@@ -76,7 +76,7 @@ def placed(drawing: vp.Drawing, points: np.ndarray) -> np.ndarray:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", ["torus", "revolutions", "capped", "conic_section", "mixed"])
+@pytest.mark.parametrize("name", ["torus", "revolutions", "capped", "conic_section"])
 def test_what_is_painted_beside_contours_is_what_a_finer_picture_shows_there(name: str) -> None:
     error = 0.05
     scene = vp.read(DATA / f"{name}.scene")
@@ -233,7 +233,7 @@ def test_an_accuracy_besides_is_refused() -> None:
 
 def command(*arguments: str, cwd: Path) -> subprocess.CompletedProcess[str]:
     return subprocess.run(
-        [sys.executable, "-m", "vectorplot", *arguments], capture_output=True, text=True, cwd=cwd, timeout=120
+        [sys.executable, "-m", "vectorplot", *arguments], capture_output=True, text=True, cwd=cwd, timeout=600
     )
 
 

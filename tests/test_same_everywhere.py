@@ -9,6 +9,7 @@ import subprocess
 import sys
 
 import pytest
+from support.effort import several
 from support.paths import PACKAGE, ROOT
 from support.sources import text_of, tree_of
 
@@ -91,7 +92,7 @@ def test_other_processors_make_the_same_bytes():
     here = pictures(scenes, OPENBLAS_CORETYPE="Haswell")
     assert here.count("\n") == 36
     # Zen multiplies as Haswell does.
-    for core in ("Prescott", "SkylakeX"):
+    for core in ("Prescott", "SkylakeX")[: several(1, long=2)]:
         # The least of them without what numpy knows of newer instructions, by its names of today and of version 2.0.
         without = {"NPY_DISABLE_CPU_FEATURES": NEWER_INSTRUCTIONS} if core == "Prescott" else {}
         assert pictures(scenes, OPENBLAS_CORETYPE=core, **without) == here, core

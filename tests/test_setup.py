@@ -18,7 +18,7 @@ def set_up(folder, *arguments, path):
         shutil.copy(ROOT / name, folder)
     environment = {"PATH": str(path), "HOME": str(folder)}
     command = [shutil.which("sh"), str(folder / "setup.sh"), *arguments]
-    return subprocess.run(command, cwd="/", env=environment, capture_output=True, text=True, timeout=120)
+    return subprocess.run(command, cwd="/", env=environment, capture_output=True, text=True, timeout=600)
 
 
 def programs(folder, *names, **scripts):

@@ -138,6 +138,7 @@ def test_a_hole_hides_nothing() -> None:
     assert sight.hidden_by.tolist() == [0, 1]
 
 
+@pytest.mark.spread
 @pytest.mark.parametrize("moved", [False, True])
 @pytest.mark.parametrize("view", [(5.0, -4.0, 3.0), (1.2, 0.4, 2.5), (-1.0, 6.0, 0.4)])
 def test_a_cut_surface_hides_up_to_its_rim(view, moved) -> None:

@@ -31,7 +31,7 @@ def files_in(folder):
 def built(kind, folder, place):
     """The file that the project in a folder is built as, put into a place."""
     command = [sys.executable, "-c", BUILD, kind, str(place)]
-    told = subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=120)
+    told = subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=600)
     assert told.returncode == 0, told.stderr
     return place / told.stdout.splitlines()[-1]
 
@@ -61,7 +61,7 @@ def installed(wheel, tmp_path_factory):
     """A folder with what the wheel brings, compiled as far as the checkout is, and nothing else."""
     place = tmp_path_factory.mktemp("installed")
     words = ["install", "--quiet", "--no-deps", "--no-index", "--no-compile", "--disable-pip-version-check"]
-    subprocess.run([sys.executable, "-m", "pip", *words, "--target", place, wheel], check=True, timeout=120)
+    subprocess.run([sys.executable, "-m", "pip", *words, "--target", place, wheel], check=True, timeout=600)
     for source in (ROOT / "vectorplot").rglob("*.py"):
         compiled = Path(importlib.util.cache_from_source(str(source)))
         if compiled.is_file():
@@ -78,7 +78,7 @@ def run(installed, folder, *words):
     environment = {name: value for name, value in os.environ.items() if not name.startswith("PYTHON")}
     environment["PYTHONPATH"] = str(installed)
     command = [sys.executable, "-W", "error", *words]
-    return subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, timeout=120)
+    return subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, timeout=600)
 
 
 @pytest.mark.slow

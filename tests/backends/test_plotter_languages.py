@@ -46,7 +46,7 @@ def plotted(folder, command):
     words = shlex.split(command)[1:]
     words = [str(folder / word) if word.endswith((".svg", ".hpgl")) else word for word in words]
     # It tells on stderr how the plotter is to be set.
-    subprocess.run([program("vpype"), *words], check=True, capture_output=True, timeout=120)
+    subprocess.run([program("vpype"), *words], check=True, capture_output=True, timeout=600)
     return (folder / words[-1]).read_text("ascii")
 
 

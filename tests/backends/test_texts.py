@@ -102,7 +102,7 @@ def test_latex_sets_letters_over_a_pdf(labelled, tmp_path):
         "\\pagestyle{empty}\\parindent0pt\\begin{document}\\input{over_it}\\newpage\\input{whole}\\end{document}"
     )
     latex = ["pdflatex", "-interaction=batchmode", "-halt-on-error", "a.tex"]
-    subprocess.run(latex, cwd=tmp_path, check=True, capture_output=True, timeout=120)
+    subprocess.run(latex, cwd=tmp_path, check=True, capture_output=True, timeout=600)
     text = run("pdftotext", tmp_path / "a.pdf", "-").decode()
     assert "& more" in text and "α" in text
     assert all(word in text for word in ("A & B", "100% \\ {x}", "#7", "Tokyo", "behind", "Letters"))

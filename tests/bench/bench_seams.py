@@ -91,7 +91,7 @@ def in_chromium(folder: Path) -> Picture:
     (folder / "a.html").write_text('<body style="margin:0"><img src="a.svg" style="display:block">')
     profile = folder / "profile"
     command = ["chromium", *CHROMIUM, f"--user-data-dir={profile}", size, f"--screenshot={folder / 'c.png'}"]
-    subprocess.run([*command, f"file://{folder / 'a.html'}"], check=True, capture_output=True, timeout=120)
+    subprocess.run([*command, f"file://{folder / 'a.html'}"], check=True, capture_output=True, timeout=600)
     shutil.rmtree(profile, ignore_errors=True)
     return picture_of((folder / "c.png").read_bytes())
 

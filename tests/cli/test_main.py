@@ -19,7 +19,7 @@ COMMAND = [sys.executable, "-m", "vectorplot"]
 
 
 def shell(*arguments, **options):
-    return subprocess.run([*COMMAND, *map(str, arguments)], capture_output=True, timeout=120, **options)
+    return subprocess.run([*COMMAND, *map(str, arguments)], capture_output=True, timeout=600, **options)
 
 
 def test_version_and_help(capsys):
@@ -293,7 +293,7 @@ def test_ctrl_c_leaves_no_file_and_says_one_line(cube, tmp_path):
     with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
         assert process.stdout.readline() == b"working\n"
         process.send_signal(signal.SIGINT)
-        _, errors = process.communicate(timeout=120)
+        _, errors = process.communicate(timeout=600)
     assert process.returncode == 130
     assert errors == b"vectorplot: interrupted\n"
     assert [path.name for path in tmp_path.iterdir()] == ["cube.obj"]

@@ -187,7 +187,7 @@ def test_what_runs_out_at_any_stage_is_said_in_one_line(words, error, line, plac
 
 def limited(code: str, arguments: list[str], **more) -> subprocess.CompletedProcess[bytes]:
     script = f"import resource, sys\n{code}\nfrom vectorplot.cli.main import main\nmain()"
-    return subprocess.run([sys.executable, "-c", script, *arguments], capture_output=True, timeout=120, **more)
+    return subprocess.run([sys.executable, "-c", script, *arguments], capture_output=True, timeout=600, **more)
 
 
 @pytest.mark.slow
@@ -279,7 +279,7 @@ def test_nobody_reads_what_is_said(stream, place):
     arguments = ["draw", str(place), "-o", "-", "--format", "svg", "--explain"]
     with os.fdopen(writing, "wb") as pipe:
         others = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, stream: pipe}
-        result = subprocess.run([sys.executable, "-m", "vectorplot", *arguments], timeout=120, **others)
+        result = subprocess.run([sys.executable, "-m", "vectorplot", *arguments], timeout=600, **others)
     assert result.returncode == 1
     assert b"Traceback" not in (result.stderr or b"")
 

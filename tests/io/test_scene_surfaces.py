@@ -272,7 +272,7 @@ def test_a_scene_without_surfaces_does_not_load_them():
         "import sys; from vectorplot.io.scene_language import parse_scene; parse_scene('A box 1 1 1');"
         "assert 'vectorplot.io.scenes.scene_families' not in sys.modules"
     )
-    subprocess.run([sys.executable, "-c", code], check=True, timeout=120)
+    subprocess.run([sys.executable, "-c", code], check=True, timeout=600)
 
 
 def test_surfaces_are_no_meshes():

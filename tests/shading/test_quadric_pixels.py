@@ -65,6 +65,7 @@ def beside_edges(pixels: np.ndarray) -> np.ndarray:
 
 
 @pytest.mark.capability("G7.3-zbuffer")
+@pytest.mark.spread
 @pytest.mark.parametrize("name", EYES)
 @pytest.mark.parametrize("seed", [0, 1])
 def test_pictures_are_those_of_fine_triangles(name, seed, monkeypatch) -> None:

@@ -52,7 +52,7 @@ def missing(name: str) -> str:
 
 def run(name: str, *arguments: object) -> bytes:
     """What the program prints; anything on stderr or another exit status than 0 fails the test."""
-    result = subprocess.run([program(name), *map(str, arguments)], capture_output=True, timeout=120)
+    result = subprocess.run([program(name), *map(str, arguments)], capture_output=True, timeout=600)
     assert result.returncode == 0, (result.stdout[-500:], result.stderr[-500:])
     assert not result.stderr, result.stderr[-500:]
     return result.stdout

@@ -4,6 +4,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from support.effort import several
 
 from vectorplot.errors import InputError
 from vectorplot.io import parse_scene
@@ -150,7 +151,7 @@ CYCLIDES = {
 @pytest.mark.parametrize("size", [1.0, 1e4])
 def test_tori_and_cyclides_are_recognised_in_any_place(name, size):
     values = quartic(*CYCLIDES[name])
-    for seed in range(3):
+    for seed in range(several(1, long=3)):
         surface, back = moved_equation(values, seed, 4.0, size)
         found = parametrised(surface)
         assert found.kind == ("torus" if CYCLIDES[name][1] == 0.0 else "cyclide")

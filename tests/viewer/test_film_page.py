@@ -31,7 +31,7 @@ def page_of(command, monkeypatch):
     def fetch(address):
         for name in ("", "film.svg", "viewer.js", "ask/draw"):
             try:
-                with urllib.request.urlopen(address + name, timeout=120) as answer:
+                with urllib.request.urlopen(address + name, timeout=600) as answer:
                     found[name] = answer.status, answer.headers.get_content_type(), answer.read().decode()
             except urllib.error.HTTPError as refused:
                 found[name] = refused.code, "", ""
@@ -109,7 +109,7 @@ def looked_at(address):
         places["plays"] = page.locator("#pause").inner_text()
         browser.close()
     quit_it = urllib.request.Request(f"{address}quit", b"{}", {"Content-Type": "application/json"})
-    with urllib.request.urlopen(quit_it, timeout=120):
+    with urllib.request.urlopen(quit_it, timeout=600):
         return errors, places
 
 
@@ -123,7 +123,7 @@ def test_a_film_is_stopped_and_stepped_through(tmp_path, monkeypatch):
         looks = []
         monkeypatch.setattr("webbrowser.open", lambda address: looks.append(pool.submit(looked_at, address)))
         assert run(["replay", "turn", "--fps", "5", "--timeout", "60"]) == 0
-        errors, places = looks[0].result(timeout=120)
+        errors, places = looks[0].result(timeout=600)
     assert errors == []
     assert places["passed"] == {"1", "2", "3", "4"}
     assert places["still"] == places["later"] and places["still"][1] == "Play"

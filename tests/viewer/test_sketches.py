@@ -122,17 +122,17 @@ def test_the_page_draws_again_when_the_file_or_a_parameter_changes(sketch_of, tm
             page.on("pageerror", lambda error: faults.append(str(error)))
             await page.goto(address)
             state = page.locator("#state:has-text('drawn in')")
-            await state.wait_for(timeout=120_000)
+            await state.wait_for(timeout=600_000)
             assert await page.locator("#parameters input[type=range]").count() == 2
             first = await page.get_attribute("#picture", "src")
             await page.fill("[data-name=seed]", "12")
-            await page.locator("#printed:has-text('seed 12')").wait_for(timeout=120_000)
+            await page.locator("#printed:has-text('seed 12')").wait_for(timeout=600_000)
             assert "%22seed%22%3A12" in page.url and await page.get_attribute("#picture", "src") != first
             sketch.path.write_text(SKETCH.replace("side, side, side", "side, side, 1 / 0"), encoding="utf-8")
-            await page.locator("#error:has-text('ZeroDivisionError')").wait_for(timeout=120_000)
+            await page.locator("#error:has-text('ZeroDivisionError')").wait_for(timeout=600_000)
             sketch.path.write_text(SKETCH.replace("count=3", "count=30"), encoding="utf-8")
-            await page.locator("#error").wait_for(state="hidden", timeout=120_000)
-            await state.wait_for(timeout=120_000)
+            await page.locator("#error").wait_for(state="hidden", timeout=600_000)
+            await state.wait_for(timeout=600_000)
             assert await page.get_attribute("[data-name=count]", "max") == "60"
             await page.screenshot(path=str(tmp_path / "page.png"))
             async with page.expect_download() as downloading:

@@ -64,7 +64,7 @@ def test_the_size_of_the_page_is_not_rounded():
 def test_the_bounding_box_holds_what_ghostscript_measures(sample, tmp_path):
     save(sample, tmp_path / "a.eps")
     command = [program("gs"), "-q", "-dSAFER", "-dBATCH", "-dNOPAUSE", "-sDEVICE=bbox", str(tmp_path / "a.eps")]
-    measured = subprocess.run(command, capture_output=True, timeout=120, check=True).stderr
+    measured = subprocess.run(command, capture_output=True, timeout=600, check=True).stderr
     (ink,) = re.findall(rb"%%BoundingBox: (.*)", measured)
     box = bounding_box((tmp_path / "a.eps").read_bytes())
     assert np.abs(np.array([int(word) for word in ink.split()]) - box).max() <= 1

@@ -30,9 +30,9 @@ def set_by_latex(drawing, folder):
     (folder / "picture.tex").write_bytes(tikz_bytes(drawing))
     (folder / "document.tex").write_text(DOCUMENT % (drawing.width_mm, drawing.height_mm), encoding="ascii")
     latex = ["pdflatex", "-interaction=batchmode", "-halt-on-error", "document.tex"]
-    subprocess.run(latex, cwd=folder, check=True, capture_output=True, timeout=120)
+    subprocess.run(latex, cwd=folder, check=True, capture_output=True, timeout=600)
     poppler = ["pdftoppm", "-r", "150", "-singlefile", "document.pdf", "page"]
-    subprocess.run(poppler, cwd=folder, check=True, timeout=120)
+    subprocess.run(poppler, cwd=folder, check=True, timeout=600)
     log = (folder / "document.log").read_text(encoding="latin-1")
     return np.asarray(Image.open(folder / "page.ppm")).astype(int), log
 
@@ -138,7 +138,7 @@ def widths_in_latex(drawing, wanted, folder):
     (folder / "picture.tex").write_bytes(tikz_bytes(drawing))
     (folder / "document.tex").write_text(WIDTHS % wanted, encoding="ascii")
     latex = ["pdflatex", "-interaction=batchmode", "-halt-on-error", "document.tex"]
-    subprocess.run(latex, cwd=folder, check=True, capture_output=True, timeout=120)
+    subprocess.run(latex, cwd=folder, check=True, capture_output=True, timeout=600)
     log = (folder / "document.log").read_text(encoding="latin-1")
     return [float(width) for width in re.search(r"WIDTHS ([0-9.]+)pt([0-9.]+)pt", log).groups()], log
 

@@ -79,7 +79,7 @@ def painted(tmp_path_factory: pytest.TempPathFactory) -> vp.Drawing:
 
 
 def shell(*arguments: object, **options: object) -> subprocess.CompletedProcess[bytes]:
-    return subprocess.run([*COMMAND, *map(str, arguments)], capture_output=True, timeout=120, **options)
+    return subprocess.run([*COMMAND, *map(str, arguments)], capture_output=True, timeout=600, **options)
 
 
 def fills(path: Path, *options: str) -> list[dict]:
@@ -144,7 +144,7 @@ def test_readers_of_each_format_show_the_picture_of_the_png(word: str, painted: 
     out, ours = tmp_path / f"out.{word}", tmp_path / "ours.png"
     vp.save(painted, out)
     vp.save(painted, ours)
-    told = subprocess.run([part.format(out) for part in READERS[word]], capture_output=True, timeout=120, check=True)
+    told = subprocess.run([part.format(out) for part in READERS[word]], capture_output=True, timeout=600, check=True)
     assert told.stderr == b""
     theirs = image.open(f"{out}.read.png").convert("RGB")
     mine = image.open(ours).convert("RGB")
@@ -333,7 +333,7 @@ def test_a_reader_that_went_away_is_no_traceback(cube: Path) -> None:
     os.close(reading)
     with os.fdopen(writing, "wb") as pipe:
         arguments = ["paint", str(cube), "-o", "-", "--format", "svg"]
-        result = subprocess.run([*COMMAND, *arguments], stdout=pipe, stderr=subprocess.PIPE, timeout=120)
+        result = subprocess.run([*COMMAND, *arguments], stdout=pipe, stderr=subprocess.PIPE, timeout=600)
     assert (result.returncode, result.stderr) == (1, b"")
 
 
@@ -360,7 +360,7 @@ def test_ctrl_c_leaves_no_file_and_says_one_line(stage: str, cube: Path) -> None
     with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
         assert process.stdout is not None and process.stdout.readline() == b"working\n"
         process.send_signal(signal.SIGINT)
-        _, errors = process.communicate(timeout=120)
+        _, errors = process.communicate(timeout=600)
     assert process.returncode == 130
     assert errors == b"vectorplot: interrupted\n"
     assert [path.name for path in cube.parent.iterdir()] == ["cube.obj"]

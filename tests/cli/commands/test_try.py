@@ -80,10 +80,10 @@ def test_it_stops_by_a_signal_and_leaves_with_status_0(cube):
     with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
         try:
             address = process.stdout.readline().strip()
-            with urllib.request.urlopen(address, timeout=120) as answer:
+            with urllib.request.urlopen(address, timeout=600) as answer:
                 assert b"<title>vectorplot</title>" in answer.read()
             os.kill(process.pid, signal.SIGTERM)
-            out, said = process.communicate(timeout=120)
+            out, said = process.communicate(timeout=600)
         finally:
             process.kill()
     assert (process.returncode, out, said) == (0, "", "")

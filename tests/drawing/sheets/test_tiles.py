@@ -76,6 +76,7 @@ def page_to_cut(curves):
     return vp.draw("data/mixed.scene", page="A3", curves=curves, hatch=vp.Hatching("tone", 2.0), frame=True)
 
 
+@pytest.mark.spread
 @pytest.mark.parametrize("curves", ["bezier", "polyline"])
 @pytest.mark.parametrize(("columns", "rows"), [(2, 2), (3, 1), (1, 1)])
 def test_sheets_together_are_the_page(columns, rows, curves):
