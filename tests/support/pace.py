@@ -40,11 +40,11 @@ def slowness() -> float:
 @contextmanager
 def cpu_seconds(most: float) -> Iterator[None]:
     """A block that is stopped by TooLong after so many CPU seconds of a quiet machine; only the main thread can be
-    stopped. How slow the machine is is asked before, and again whenever the time would be up."""
+    stopped. How slow this one is, is asked when the time would be up."""
     if threading.current_thread() is not threading.main_thread():
         yield
         return
-    slowest, start = slowness(), time.process_time()
+    slowest, start = 1.0, time.process_time()
 
     def stop(number: int, frame: FrameType | None) -> None:
         nonlocal slowest
@@ -55,7 +55,7 @@ def cpu_seconds(most: float) -> Iterator[None]:
         signal.setitimer(signal.ITIMER_PROF, left)
 
     before = signal.signal(signal.SIGPROF, stop)
-    signal.setitimer(signal.ITIMER_PROF, most * slowest)
+    signal.setitimer(signal.ITIMER_PROF, most)
     try:
         yield
     finally:
