@@ -18,7 +18,7 @@ from vectorplot.geometry.budget import may_stop
 from vectorplot.geometry.vectors import dot, norm
 from vectorplot.io.opencascade import Numbers, explored, occ
 from vectorplot.surfaces.brep import BrepEdges, BrepFace, Plane, TurnedCircle, TurnedLine
-from vectorplot.surfaces.parameter_regions import bounds_of_loops, parameter_region
+from vectorplot.surfaces.parameter_regions import bounds_of_many, parameter_regions
 from vectorplot.surfaces.placed_surface import PlacedSurface
 from vectorplot.surfaces.splines import SplineSurface
 from vectorplot.surfaces.stacked import unit_normals
@@ -131,11 +131,7 @@ def body_faces(shape: Any) -> BodyFaces:
     points = {edge: _closed(*_fine_rows(curve, edge, rows)) for edge, curve in curves.items()}
     for use in uses:
         use.read(rows[use.edge])
-    made = list[BrepFace]()
-    for face in faces:
-        may_stop()
-        made.append(_trimmed(face, _seams(face, rows)))
-    return _together(made, faces, points, curves)
+    return _together(_trimmed(faces, [_seams(face, rows) for face in faces]), faces, points, curves)
 
 
 def _face(face: Any, number: int, numbers: Numbers, curves: dict[int, Any]) -> _Face:
@@ -394,12 +390,27 @@ def _domain(low: Floats, high: Floats, ends: Floats, closed: Sequence[bool] = (F
     )
 
 
-def _trimmed(face: _Face, closed: Bools) -> BrepFace:
-    """A face over a domain around its rings, within these. Errors: NotMapped for rings that do not close."""
-    loops = [_loop(ring) for ring in face.rings]
-    if not loops:
+def _trimmed(faces: Sequence[_Face], closed: Sequence[Bools]) -> list[BrepFace]:
+    """Faces over domains around their rings, within these. Errors: NotMapped for rings that do not close."""
+    if not all(face.rings for face in faces):
         raise NotMapped("a face without edges")
-    low, high = bounds_of_loops(loops)
+    if not faces:
+        return []
+    loops = [[_loop(ring) for ring in face.rings] for face in faces]
+    domains = [_domain_around(*one) for one in zip(faces, closed, bounds_of_many(loops), strict=True)]
+    regions = parameter_regions(domains, loops, filled=False).apart()
+    if not all(region.leaves_anything for region in regions):
+        raise NotMapped("a face of which its edges leave nothing")
+    return [
+        BrepFace(face.make(domain), region, face.flat, face.turned)
+        for face, domain, region in zip(faces, domains, regions, strict=True)
+    ]
+
+
+def _domain_around(face: _Face, closed: Bools, bounds: Floats) -> Domain:
+    """That around the rings of a face, which reach from bounds[0] to bounds[1] in u and v."""
+    may_stop()
+    low, high = bounds
     size = high - low
     room = AROUND_TRIMS * size
     # No more than once round.
@@ -417,11 +428,7 @@ def _trimmed(face: _Face, closed: Bools) -> BrepFace:
     begin, end = low - room, high + room
     begin = np.where(closed, low, begin)
     end = np.where(closed, np.where(periodic, low + face.periods, high), end)
-    domain = _domain(begin, end, ends, closed.tolist())
-    region = parameter_region(domain, loops, filled=False)
-    if not region.leaves_anything:
-        raise NotMapped("a face of which its edges leave nothing")
-    return BrepFace(face.make(domain), region, face.flat, face.turned)
+    return _domain(begin, end, ends, closed.tolist())
 
 
 def _loop(ring: Sequence[_Use]) -> Floats:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -101,10 +102,19 @@ def _pieces_of_curve(name: str, curve: Curve) -> Floats:
 
 def bounds_of_loops(loops: Sequence[Floats]) -> Floats:
     """(2,2) smallest and largest u and v of the pieces of curves."""
-    control = np.concatenate(loops)
-    t = np.broadcast_to(np.linspace(0.0, 1.0, 9)[:, None], (9, len(control)))
-    points = np.concatenate([bezier_points(control, t).reshape(-1, 2), monotone(control)[0][:, 0]])
-    return np.array([points.min(axis=0), points.max(axis=0)])
+    return bounds_of_many([loops])[0]
+
+
+def bounds_of_many(many: Sequence[Sequence[Floats]]) -> Floats:
+    """(m,2,2) smallest and largest u and v of the pieces of curves, one or more in each of (m,)."""
+    control = np.concatenate([one for loops in many for one in loops])
+    first = ragged.starts([sum(map(len, loops)) for loops in many])
+    points = bezier_points(control, np.broadcast_to(np.linspace(0.0, 1.0, 9)[:, None], (9, len(control))))
+    low, high = points.min(axis=0), points.max(axis=0)
+    parts, of = monotone(control)
+    np.minimum.at(low, of, parts[:, 0])
+    np.maximum.at(high, of, parts[:, 0])
+    return np.stack([np.minimum.reduceat(low, first), np.maximum.reduceat(high, first)], axis=1)
 
 
 def monotone(control: Floats) -> tuple[Floats, Ints]:
@@ -204,6 +214,18 @@ class ParameterRegions:
             np.concatenate([one.of + at for one, at in zip(regions, first, strict=True)]),
             np.concatenate([one.side for one in regions]),
         )
+
+    def apart(self) -> list[ParameterRegions]:
+        """Each region by itself."""
+        first = np.searchsorted(self.of, np.arange(len(self) + 1)).tolist()
+        result = []
+        for number, (a, b) in enumerate(pairwise(first)):
+            loop, one = self.loop[a:b], slice(number, number + 1)
+            begin = int(loop[0]) if b > a else 0
+            of = np.zeros(b - a, dtype=np.intp)
+            own = (self.start[one], self.size[one], self.closed[one], self.filled[one])
+            result.append(ParameterRegions(*own, self.control[a:b], loop - begin, of, self.side[a:b]))
+        return result
 
     @property
     def leaves_anything(self) -> bool:
@@ -543,63 +565,62 @@ ALONG_END = 4.0
 def parameter_region(domain: Domain, loops: Sequence[Floats], *, filled: bool) -> ParameterRegions:
     """The part of a domain within an odd number of closed curves, pieces (k,4,2) each; if it is filled, within an even
     one."""
-    start = np.array([domain.u_start, domain.v_start])
-    size, closed = np.array(domain.size), np.array([domain.closed_u, domain.closed_v])
-    control, of = monotone(np.concatenate(loops))
-    loop = ragged.owner([len(one) for one in loops])[of]
+    return parameter_regions([domain], [loops], filled=filled)
+
+
+def parameter_regions(domains: Sequence[Domain], many: Sequence[Sequence[Floats]], *, filled: bool) -> ParameterRegions:
+    """Those of domains (r,) within an odd number of closed curves each, pieces (k,4,2), or within an even one."""
+    start = np.array([(domain.u_start, domain.v_start) for domain in domains])
+    size = np.array([domain.size for domain in domains])
+    closed = np.array([(domain.closed_u, domain.closed_v) for domain in domains])
+    every = [loop for loops in many for loop in loops]
+    control, piece = monotone(np.concatenate(every))
+    loop = ragged.owner([len(one) for one in every])[piece]
+    of = ragged.owner([len(loops) for loops in many])[loop]
     for axis in (0, 1):
-        for end in () if closed[axis] else (start[axis], start[axis] + size[axis]):
+        for ends in (start, start + size):
+            end = ends[of, axis]
             low, high = (some(control[:, [0, 3], axis], axis=1) for some in (np.min, np.max))
-            cut = np.flatnonzero((low < end) & (high > end))
+            cut = np.flatnonzero(~closed[of, axis] & (low < end) & (high > end))
             t = np.full(len(control), np.inf)
-            t[cut] = _at_value(control[cut], axis, np.full(len(cut), end))
+            t[cut] = _at_value(control[cut], axis, end[cut])
             t[(t <= 0.0) | (t >= 1.0)] = np.inf
-            numbers = np.arange(len(control))
-            control, numbers = _divided(control, numbers, t)
-            loop = loop[numbers]
-    count = len(control)
-    one = ParameterRegions(
-        start[None],
-        size[None],
-        closed[None],
-        np.array([filled]),
-        control,
-        loop,
-        np.zeros(count, dtype=np.intp),
-        np.zeros(count, dtype=np.intp),
+            control, piece = _divided(control, np.arange(len(control)), t)
+            loop, of = loop[piece], of[piece]
+    none = np.zeros(len(control), dtype=np.intp)
+    return _with_sides(
+        ParameterRegions(start, size, closed, np.full(len(domains), filled), control, loop, of, side=none)
     )
-    return _with_sides(one)
 
 
-def _with_sides(region: ParameterRegions) -> ParameterRegions:
-    """The region with the sides of its pieces, told beside their middles.
+def _with_sides(regions: ParameterRegions) -> ParameterRegions:
+    """The regions with the sides of their pieces, told beside their middles.
 
     Curves do not cross: along one of them nothing changes but at ends of the domain, and where pieces lie along a seam
     or such an end, which are straight. So one piece tells for all others of its curve that are within the domain.
     """
-    control, closed = region._scaled, region.closed[0]
+    control, closed = regions._scaled, regions.closed[regions.of]
     middle = np.full(len(control), 0.5)
     at, way = bezier_points(control, middle), _unit(bezier_tangents(control, middle))
     aside = BESIDE_TRIM * from_components(-way[:, 1], way[:, 0])
     straight: Bools = any_component(np.asarray((np.abs(control - control[:, :1]) <= ROUNDING_OF_DOMAIN).all(axis=1)))
     inner = (closed | ((at > 0.0) & (at < 1.0))).all(axis=1)
     others = np.flatnonzero(inner & ~straight)
-    first = others[np.unique(region.loop[others], return_index=True)[1]]
+    first = others[np.unique(regions.loop[others], return_index=True)[1]]
     asked = np.concatenate([np.flatnonzero(straight), first])
-    inside = []
+    of, inside = regions.of[asked], []
     for places in (at[asked] + aside[asked], at[asked] - aside[asked]):
-        within = (closed | ((places >= 0.0) & (places <= 1.0))).all(axis=1)
-        which = np.zeros(len(asked), dtype=np.intp)
-        inside.append(within & region._located(region.start[0] + places * region.size[0], which)[0])
+        within = (closed[asked] | ((places >= 0.0) & (places <= 1.0))).all(axis=1)
+        inside.append(within & regions._located(regions.start[of] + places * regions.size[of], of)[0])
     told = inside[0].astype(np.intp) - inside[1]
-    of_loop = np.zeros(int(region.loop.max(initial=-1)) + 1, dtype=np.intp)
-    of_loop[region.loop[first]] = told[len(asked) - len(first) :]
-    side = np.where(inner, of_loop[region.loop], 0)
+    of_loop = np.zeros(int(regions.loop.max(initial=-1)) + 1, dtype=np.intp)
+    of_loop[regions.loop[first]] = told[len(asked) - len(first) :]
+    side = np.where(inner, of_loop[regions.loop], 0)
     side[straight] = told[: len(asked) - len(first)]
     ends = control[:, [0, 3]]
     for place in (0.0, 1.0):
         side[((np.abs(ends - place) <= ALONG_END * ON_TRIM).all(axis=1) & ~closed).any(axis=1)] = 0
-    return replace(region, side=side)
+    return replace(regions, side=side)
 
 
 def led_back(name: str, pieces: Floats, domain: Domain) -> Floats:
