@@ -279,6 +279,35 @@ def test_materials_of_parts_are_a_column_of_their_list(opencascade: None, tmp_pa
     assert vp.read(write_step(cad_parts.box(1, 1, 1), tmp_path / "box.step")).sheet is None
 
 
+@pytest.mark.slow
+def test_parts_measure_what_their_surfaces_do(opencascade: None, tmp_path: Path):
+    whole = Assembly()
+    disc = whole.part("disc", cad_parts.rod(75, 14))
+    whole.group("whole", (disc, (0, 0, 0)), (whole.part("pin", cad_parts.rod(8, 30)), (20, 20, 14)))
+    scene = vp.read(whole.write(tmp_path / "whole.step"))
+    assert np.abs(scene.bounds - [(-75, -75, 0), (75, 75, 44)]).max() < 1e-6
+    pin = vp.read(
+        write_step(cad_parts.moved(cad_parts.rod(8, 30, way=(1, 0, 0)), 0, 0, 0, turn=0.7), tmp_path / "p.step")
+    )
+    wide, high = 30 * math.cos(0.7) + 16 * math.sin(0.7), 30 * math.sin(0.7) + 16 * math.cos(0.7)
+    assert np.abs(np.ptp(pin.bounds, axis=0) - [wide, high, 16]).max() < 1e-6
+    for parts in ("triangles", "exact"):
+        sheet = vp.technical_sheet(vp.read(tmp_path / "whole.step", parts=parts), dimensions=True, text="real")
+        strings = [string for layer in sheet.layers for texts in layer.texts for string in texts.strings]
+        assert strings.count("150") == 2 and strings.count("44") == 1
+
+
+@pytest.mark.slow
+def test_sheets_show_no_lines_in_which_parts_only_touch(opencascade: None):
+    plate = cad_parts.cut(cad_parts.box(40, 40, 30), cad_parts.rod(8, 60, 20, 20, -5))
+    scene = scene_of({"plate": plate, "pin": cad_parts.moved(cad_parts.rod(8, 40), 20, 20, -5)})
+    sheet = vp.technical_sheet(scene, views="front", scale="1:1", breakout="front:20,20,15,6")
+    kinds = {layer.name for layer in sheet.layers if any(len(paths) for paths in layer.strokes)}
+    assert "intersection" not in kinds and {"contour", "hatch", "thin"} <= kinds
+    hidden = next(layer for layer in sheet.layers if layer.name == "hidden")
+    assert sum(len(paths) for paths in hidden.strokes) < 40
+
+
 def test_rims_of_bores_with_pins_in_them_are_whole(opencascade: None):
     plate = cad_parts.cut(cad_parts.box(40, 40, 10), cad_parts.rod(8, 20, 20, 20, -5))
     scene = scene_of({"plate": plate, "pin": cad_parts.moved(cad_parts.rod(8, 30), 20, 20, 0, turn=0.05)})

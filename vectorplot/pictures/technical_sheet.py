@@ -82,6 +82,7 @@ from vectorplot.pictures.sheet_views import (
 )
 from vectorplot.scene.annotations import annotation_points, only_annotations
 from vectorplot.scene.exploded import shown_apart
+from vectorplot.scene.item import Item
 from vectorplot.scene.labels import Along, AtVertex, Measures, OnCurve
 from vectorplot.scene.page import MM_PER_INCH, Page, SheetSettings
 from vectorplot.scene.placement import camera_of, page_of
@@ -505,7 +506,7 @@ class _Views:
         import shapely
 
         outline = draw(
-            replace(self.part.scene, labels=()),
+            replace(self.part.scene, labels=(), items=tuple(replace(one, lines=None) for one in self.part.scene.items)),
             replace(camera, height=page.height_mm / self.factor),
             page=page,
             fit=False,
@@ -785,7 +786,8 @@ def technical_sheet(
     per_unit = MM_PER[str(told.unit)]
     given = shown if per_unit == 1.0 else shown.scaled(per_unit)
     # Sheets have pens of their own.
-    given = replace(given if up is None else stood_up(given, up), inks=None)
+    given = given if up is None else stood_up(given, up)
+    given = replace(given, inks=None, items=tuple(map(_with_lines_of_sheets, given.items)))
     given = replace(given, measures=_measures(given.measures, usual, written_unit, decimals, zeros, comma))
     solid, annotations = without_annotations(given)
     edges: tuple[RoundEdge, ...] = ()
@@ -1021,6 +1023,14 @@ def _check_sections(sections: Iterable[SheetSection], left_out: Interruptions) -
 def _page_at(factor: float) -> Callable[[Scene], InSpace]:
     """A page on which a unit of the world is so many mm, as cut_scene takes it."""
     return lambda scene: lambda points: np.full(len(points), 1.0 / factor)
+
+
+def _with_lines_of_sheets(item: Item) -> Item:
+    """An item that has kinds of lines of its own where nobody asks for any has no others on a sheet: where parts touch,
+    as a pin in its bore, their triangles pierce."""
+    if item.default_lines is None or item.lines is not None:
+        return item
+    return replace(item, lines=tuple(word for word in LINES.split(",") if word in item.default_lines))
 
 
 def _round_edges(scene: Scene, crease_angle_deg: float) -> tuple[RoundEdge, ...]:
