@@ -654,6 +654,10 @@ ROUND_OF_RADIUS = 1e-3
 """A ring of edges whose vertices are off a circle by no more than this part of its radius is one: files of single
 precision and the rounding of programs that make them are finer, polygons that are not meant round far coarser."""
 
+OUTERMOST_OF_EXTENT = 1e-3
+"""Vertices within this part of the extent from the end of a part are where dimensions of the whole begin: triangles of
+round parts fall short of it by less, and an extension line that begins so much beside the part looks right."""
+
 PLAIN_NUMBER = 1e-3
 """Smaller numbers stand at an axis as powers of ten."""
 

@@ -874,7 +874,7 @@ def technical_sheet(
     for view, (x, y) in (placed[name] for name in placed if name not in {one.letter for one in details}):
         added = [one.before(view.camera, part.bounds) for one in notes[view.name]]
         added += [
-            one.annotation(view.camera, part.bounds, factor, view.world).scene
+            one.annotation(view.camera, part.scene, factor, view.world).scene
             for one in part.overall
             if one.view == view.name
         ]
