@@ -17,8 +17,8 @@ import vectorplot as vp
 from vectorplot.cli.main import run
 from vectorplot.drawing import typeset
 from vectorplot.effects.colour_maps import (
-    AxisNumbers,
     COLOUR_MAPS,
+    AxisNumbers,
     axis_numbers,
     coloured,
     logarithmic_numbers,
