@@ -415,3 +415,24 @@ def test_the_command_reads_parts(opencascade: None, tmp_path: Path):
     out = tmp_path / "part.svg"
     assert run(["draw", str(path), "-o", str(out), "--quiet", "--curves", "arcs"]) == 0
     assert " A" in out.read_text()
+
+
+@pytest.mark.slow
+def test_scene_files_include_parts(opencascade: None, tmp_path: Path, capsys: pytest.CaptureFixture[str]):
+    whole = Assembly()
+    plate = whole.made_of(whole.coloured(whole.part("plate", cad_parts.box(40, 30, 4)), 0.2, 0.4, 0.8), "S235JR")
+    whole.group("whole", (plate, (0, 0, 0)), (whole.part("pin", cad_parts.rod(5, 9)), (20, 15, 4)))
+    whole.write(tmp_path / "whole.step")
+    told = 'include "whole.step" translation 0 0 10\ndimension from 0 0 10 to 40 0 10 offset 0 0 -8\n'
+    (tmp_path / "whole.scene").write_text(told + 'sheet field "A" "B"', encoding="utf-8")
+    scene = vp.read(tmp_path / "whole.scene")
+    assert [item.name for item in scene.items[:2]] == ["plate", "pin"] and scene.items[0].colour == "#3366cc"
+    assert np.abs(Scene(scene.items[:2]).bounds - [(0, 0, 10), (40, 30, 23)]).max() < 1e-6
+    assert scene.sheet is not None and scene.sheet.made_of == (("plate", "S235JR"),)
+    assert scene.sheet.fields == (("A", "B"),) and scene.items[1].exact is None
+    assert vp.read(tmp_path / "whole.scene", parts="exact").items[1].exact is not None
+    out = str(tmp_path / "whole.svg")
+    assert run(["sheet", str(tmp_path / "whole.scene"), "-o", out, "--parts-list", "--parts", "exact"]) == 0
+    (tmp_path / "other.scene").write_text("B gray box 1 1 1", encoding="utf-8")
+    assert run(["draw", str(tmp_path / "other.scene"), "-o", out, "--parts", "exact"]) == 1
+    assert "other.scene: a way of drawing parts is for CAD parts only" in capsys.readouterr().err

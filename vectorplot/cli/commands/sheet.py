@@ -44,7 +44,7 @@ if TYPE_CHECKING:
 
 def _name_of_mesh(path: str) -> str:
     """The name of a file without its suffix, where the file has no title of its own to say."""
-    from vectorplot.io.read_file import CAD_SUFFIXES
+    from vectorplot.io.named_files import CAD_SUFFIXES
     from vectorplot.io.read_mesh import MESH_SUFFIXES
 
     return Path(path).stem if Path(path).suffix.lower() in (*MESH_SUFFIXES, *CAD_SUFFIXES) else ""
