@@ -750,6 +750,10 @@ BACKGROUND = click.option(
     help="Behind the picture: a palette, a plain colour or #rrggbb.  [default: that of the scene or the style]",
 )
 
+CURVES = click.option(
+    "--curves", type=of_option("curves"), default="bezier", help="How curves and circles of meshes leave."
+)
+
 TOLERANCE = click.option(
     "--tolerance",
     "tolerance_mm",

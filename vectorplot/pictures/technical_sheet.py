@@ -118,7 +118,7 @@ SEAM_MM = 4.0
 
 
 Hidden = Literal["none", "dashed", "solid"]
-Curves = Literal["bezier", "polyline"]
+Curves = Literal["bezier", "polyline", "arcs"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -278,14 +278,15 @@ class _Part:
 class _Views:
     """The views of a part at a scale, as drawings on pages of their own; factor: mm on paper for a unit of the world.
 
-    hidden: what becomes of hidden lines in main views; options: those of draw for every view; spacing_mm: of hatches,
-    see cut.
+    hidden: what becomes of hidden lines in main views; curves: how those leave that are whole; options: those of draw
+    for every view; spacing_mm: of hatches, see cut.
     """
 
     part: _Part
     factor: float
     spacing_mm: float | None
     hidden: Hidden
+    curves: Curves
     options: Mapping[str, Any]
 
     def drawing(self, view: SheetView, notes: Sequence[Scene]) -> Drawing:
@@ -432,7 +433,7 @@ class _Views:
         page: Page,
         notes: Sequence[Scene],
         hidden: Hidden,
-        curves: Curves = "bezier",
+        curves: Curves | None = None,
     ) -> Drawing:
         """What a camera sees of a scene, the middle of which is that of the page."""
         return draw(
@@ -444,7 +445,7 @@ class _Views:
             hidden=hidden,
             pens=PENS,
             dashes=DASHES,
-            curves=curves,
+            curves=curves or self.curves,
             # Views are of parts, not of what these show.
             reflections=0,
             **self.options,
@@ -621,6 +622,7 @@ def technical_sheet(
     hidden: Hidden | None = None,
     text: Literal["strokes", "real"] = "strokes",
     crease_angle_deg: float = 25.0,
+    curves: Curves = "bezier",
     shortest_mm: float | None = None,
     progress: Callable[[str, float], None] | None = None,
     explain: Callable[[StageReport], None] | None = None,
@@ -703,6 +705,8 @@ def technical_sheet(
         See draw.
     crease_angle_deg : float
         See draw.
+    curves : {"bezier", "polyline", "arcs"}
+        See draw; views that are cut by circles and zones are polylines.
     shortest_mm : float, optional
         See draw: of what shows the part in every view.
     progress, explain : callable, optional
@@ -775,6 +779,7 @@ def technical_sheet(
     check_word("standard", told.standard, STANDARDS)
     check_word("text", text, TEXT_WORDS)
     check_word("hidden", told.hidden, get_args(Hidden))
+    check_word("curves", curves, get_args(Curves))
     usual = STANDARDS[str(told.standard)]
     way = told.projection or usual.projection
     check_word("projection", way, ("first", "third"))
@@ -862,7 +867,7 @@ def technical_sheet(
     _tell_left_out(annotations, notes.values())
     options = {"crease_angle_deg": crease_angle_deg, "text": text, "progress": progress, "explain": explain}
     options["shortest_mm"] = shortest_mm
-    drawer = _Views(part, factor, cut_spacing_mm, cast(Hidden, told.hidden), options)
+    drawer = _Views(part, factor, cut_spacing_mm, cast(Hidden, told.hidden), curves, options)
     placed = {view.name: (view, place) for view, place in zip(arranged.views, arranged.middles(factor), strict=True)}
     written: dict[str, Floats] = {}
     around: list[Layer] = []

@@ -11,6 +11,7 @@ import click
 
 from vectorplot.cli.option_values import upwards
 from vectorplot.cli.options import (
+    CURVES,
     CUT_SPACING,
     DRAWING_FORMATS,
     EXPLAIN,
@@ -177,6 +178,7 @@ def _lying(page: str | None, standard: str | None, said: SheetSettings) -> str:
     TEXT,
     crease_angle_option("Sharper edges are creases."),
     PARTS,
+    CURVES,
     SHORTEST,
     EXPLAIN,
     QUIET,
