@@ -275,6 +275,11 @@ class Zone:
     high: float = math.inf
     turn_deg: float = 0.0
 
+    def holds(self, places: Floats, zero: float) -> bool:
+        """Whether places (n,) along that axis are in it; of what lies on its border the part before it."""
+        low, high = float(places.min()), float(places.max())
+        return self.low - zero <= low and self.low + zero < high <= self.high + zero
+
 
 @dataclass(frozen=True)
 class LineEnd:

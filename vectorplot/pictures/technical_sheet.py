@@ -182,12 +182,14 @@ class _Part:
 
     def centre_lines_in(self, section: SheetSection, extent: float) -> list[Annotation]:
         """The centre lines that a section shows: those in its planes, and the marks of circles behind these."""
-        camera = camera_of(section.like, self.scene)
-        known = self.annotations
-        if section.normal is not None:
-            known = tuple(replace(one, scene=section.shown(one.scene, section.zones[0])) for one in known)
-        square = [one for one in known if one.is_in_every_view and one.is_square_to(camera, extent)]
-        zero = SAME_PLANE_OF_EXTENT * extent
+        camera, zero = camera_of(section.like, self.scene), SAME_PLANE_OF_EXTENT * extent
+        known = [one for one in self.annotations if one.is_in_every_view]
+        if section.hinge is not None:
+            moved = [
+                (zone, replace(one, scene=section.shown(one.scene, zone))) for zone in section.zones for one in known
+            ]
+            known = [one for zone, one in moved if zone.holds(one.points[:, section.across], zero)]
+        square = [one for one in known if one.is_square_to(camera, extent)]
         marks = [one.is_mark and self._is_behind(one, section, camera, zero) for one in square]
         off = [float(section.offset_near(one.points).max()) for one in square]
         return [one for one, kept, far in zip(square, marks, off, strict=True) if kept or far <= zero]
