@@ -308,3 +308,11 @@ def test_dimensions_of_the_whole_begin_where_the_part_ends(axis):
     begins = sorted(max(points, key=lambda point: point[1 if axis == 0 else 0]) for points in ends)
     expected = [(left, low + 5.0), (right, low + 5.0)] if axis == 0 else [(left + 14.0, top), (left + 18.0, low)]
     assert np.allclose(begins, expected)
+
+
+def test_dimensions_of_parts_that_are_moved_apart_leave_traces_out():
+    """A pin of 30 that is moved out of its plate by 40: the trace begins at its foot, 8 below the plate."""
+    scene = vp.Scene((vp.Item("plate", box((40, 20, 10))), vp.Item("pin", box((4, 4, 30)).moved(18, 8, -8))))
+    sheet = vp.technical_sheet(vp.exploded(scene, {"pin": (0, 0, 40)}), views="front", dimensions=True, text="real")
+    strings = [string for layer in sheet.layers for texts in layer.texts for string in texts.strings]
+    assert "62" in strings and "40" in strings

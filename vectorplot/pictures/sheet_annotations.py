@@ -640,9 +640,9 @@ class OverallDimension:
         room[0, 1 if self.is_level(camera) else 0] = OFFSET_MM + TEXT_MM
         return room
 
-    def annotation(self, camera: Camera, part: Scene, factor: float, world: Floats) -> Annotation:
-        """It, where a unit of the world is so many mm on paper, beside a part, and beyond all else that reaches so far,
-        world (2,2), from the middle of that. Extension lines begin where the part ends."""
+    def annotation(self, camera: Camera, part: Scene, centre: Floats, factor: float, world: Floats) -> Annotation:
+        """It, where a unit of the world is so many mm on paper, beside a part, and beyond all that reaches so far,
+        world (2,2), from a centre (3,). Extension lines begin where the part ends."""
         right, up, back = camera.axes
         middle, half = part.bounds.mean(axis=0), 0.5 * np.ptp(part.bounds, axis=0)
         low, high = (middle + sign * half[self.axis] * np.eye(3)[self.axis] for sign in (-1.0, 1.0))
@@ -652,7 +652,7 @@ class OverallDimension:
         along, inwards = (right, up) if level else (up, right)
         reach = float(matmul(np.abs(inwards), half))
         start, end = sorted((low + nearest, high + nearest), key=lambda point: float(matmul(point, along)))
-        others = float(world[0, 1 if level else 0]) - reach
+        others = float(world[0, 1 if level else 0]) - reach + float(matmul(middle - centre, inwards))
         off = -inwards * (max(others, 0.0) + OFFSET_MM / factor)
         gap, beyond = DIMENSION_GAP_MM / factor, LINE_BEYOND_MM / factor
         made = dimension(start - reach * inwards, end - reach * inwards, off, gap=gap, beyond=beyond)

@@ -89,7 +89,7 @@ from vectorplot.scene.placement import camera_of, page_of
 from vectorplot.scene.scene import Scene, together
 from vectorplot.scene.surface_lines import NO_LINES
 from vectorplot.tolerances import EDGE_ON_SINE, SAME_PLANE_OF_EXTENT
-from vectorplot.words import TEXT_WORDS, check_word, unknown
+from vectorplot.words import TEXT_WORDS, LineKind, check_word, unknown
 
 # The verb technical_sheet: main views of a part, side by side on one sheet, at one exact scale.
 
@@ -508,8 +508,9 @@ class _Views:
         """The region of shapely that the part covers in a view."""
         import shapely
 
+        items = self.part.scene.items
         outline = draw(
-            replace(self.part.scene, labels=(), items=tuple(replace(one, lines=None) for one in self.part.scene.items)),
+            replace(self.part.scene, labels=(), items=tuple(replace(item, lines=None, exact=None) for item in items)),
             replace(camera, height=page.height_mm / self.factor),
             page=page,
             fit=False,
@@ -806,7 +807,7 @@ def technical_sheet(
         extent = float(np.ptp(left_out.moved(given.bounds, math.inf), axis=0).max())
         solid, annotations = without_annotations(together([given, *centre_lines_of(edges, extent)]))
     cameras = tuple(camera_of(name, solid) for name in names)
-    overall = overall_dimensions(names, solid.bounds) if told.dimensions else ()
+    overall = overall_dimensions(names, _without_traces(solid).bounds) if told.dimensions else ()
     sections = sections_of(told.section or (), names, solid.bounds)
     circled = (*names, *(one.letter for one in sections))
     texts = told.detail_view or ()
@@ -873,6 +874,7 @@ def technical_sheet(
     placed = {view.name: (view, place) for view, place in zip(arranged.views, arranged.middles(factor), strict=True)}
     written: dict[str, Floats] = {}
     around: list[Layer] = []
+    measured = _without_traces(solid)
     for one in details:
         centres = [note.before(placed[one.letter][0].camera, part.bounds) for note in notes[one.view] if note.is_centre]
         drawn = drawer.detail(one, centres)
@@ -881,7 +883,7 @@ def technical_sheet(
     for view, (x, y) in (placed[name] for name in placed if name not in {one.letter for one in details}):
         added = [one.before(view.camera, part.bounds) for one in notes[view.name]]
         added += [
-            one.annotation(view.camera, part.scene, factor, view.world).scene
+            one.annotation(view.camera, measured, part.middle, factor, view.world).scene
             for one in part.overall
             if one.view == view.name
         ]
@@ -1030,6 +1032,11 @@ def _check_sections(sections: Iterable[SheetSection], left_out: Interruptions) -
 def _page_at(factor: float) -> Callable[[Scene], InSpace]:
     """A page on which a unit of the world is so many mm, as cut_scene takes it."""
     return lambda scene: lambda points: np.full(len(points), 1.0 / factor)
+
+
+def _without_traces(scene: Scene) -> Scene:
+    """What there is to measure of a scene whose parts are moved apart."""
+    return replace(scene, items=tuple(item for item in scene.items if item.lines != (LineKind.TRACE.word,)))
 
 
 def _with_lines_of_sheets(item: Item) -> Item:
