@@ -565,13 +565,14 @@ def coloured(scene: Scene, colouring: Colouring) -> tuple[Scene, ColourBar]:
         if whole is None:
             items.append(item)
             continue
-        lines = _kept_lines(item.curves)
+        lines = _kept_lines(item)
+        fields = item.fields if lines.contours else None
         own = []
         numbers = _scaled(colouring, whole.values, limits[0])
         parts = level_bands(whole.points, numbers, whole.triangles, _scaled(colouring, levels, limits[0]))
         if whole.without is not None:
             bare = replace(item, name=f"{item.name} 0", shape=whole.without, patterns=(), curves=lines)
-            items.append(replace(bare, group=item.group or item.name, fields=None))
+            items.append(replace(bare, group=item.group or item.name, fields=fields))
             own.append(bare.name)
         for k in range(len(colours)):
             mesh = welded(parts.mesh(k))[0] if whole.is_stepped else parts.mesh(k)
@@ -580,7 +581,7 @@ def coloured(scene: Scene, colouring: Colouring) -> tuple[Scene, ColourBar]:
                 group = item.group or item.name
                 band = replace(item, name=name, shape=mesh, colour=colours[k], patterns=(), curves=lines, group=group)
                 band = band if unlit is None else replace(band, material=unlit)
-                items.append(replace(band, fields=None, face_looks=None, normals=whole.normals))
+                items.append(replace(band, fields=fields, face_looks=None, normals=whole.normals))
                 own.append(name)
                 pens.extend(PenRule(kind, name, colour=colours[k]) for kind in IN_COLOURS)
                 pens.append(PenRule("boundary", name, width_mm=LINE_MM))
@@ -589,11 +590,17 @@ def coloured(scene: Scene, colouring: Colouring) -> tuple[Scene, ColourBar]:
     return replace(scene, items=tuple(items), colouring=None), bar
 
 
-def _kept_lines(lines: SurfaceLines) -> SurfaceLines:
-    """Those lines that meshes have too."""
+def _kept_lines(item: Item) -> SurfaceLines:
+    """Those lines that bands of an item have too; contours of fields at the values that they have on the whole."""
+    lines = item.curves
     if not lines:
         return NO_LINES
-    return replace(lines, columns=0, rows=0, paths=(), integral=(), terrain=(), smooth_contours=False)
+    numbers = {} if item.fields is None else item.fields.at_vertices
+    levels = [(one, one.levels(numbers[one.name]) if one.name in numbers else one.values) for one in lines.contours]
+    contours = tuple(replace(one, values=values) for one, values in levels if values)
+    return replace(
+        lines, columns=0, rows=0, paths=(), integral=(), terrain=(), smooth_contours=False, contours=contours
+    )
 
 
 def _faceted(scene: Scene, numbers: Sequence[int], allowed: float) -> dict[int, Facets]:

@@ -32,7 +32,7 @@ from vectorplot.geometry import ragged
 from vectorplot.io import parse_scene
 from vectorplot.io.scene_writer import write_scene
 from vectorplot.save import write
-from vectorplot.scene import BoxAxes, Colouring, terrain_scene
+from vectorplot.scene import BoxAxes, Colouring, FieldContours, Fields, terrain_scene
 from vectorplot.scene.labels import capital_height
 from vectorplot.scene.page import in_latex
 from vectorplot.surfaces import Sphere, Torus
@@ -462,3 +462,16 @@ def test_long_numbers_at_the_bar_are_parts_of_a_power_of_ten_and_stay_on_the_pag
 def test_a_range_may_have_steps(tmp_path):
     said = ["--colour-by", "z", "--colour-range=-4,0", "--colour-steps", "8"]
     assert run(["paint", "data/torus.scene", *said, "-o", str(tmp_path / "steps.svg")]) == 0
+
+
+def test_contours_of_fields_stay_where_they_are_on_the_whole():
+    block = solid_box((4, 2, 1))
+    heat = Fields(block, {"heat": 2.5 * block.vertices[:, 0]})
+    lines = vp.SurfaceLines(contours=(FieldContours("heat", 4),))
+    scene = vp.Scene((vp.Item("block", block, fields=heat, curves=lines),))
+    found = []
+    for own in (scene, replace(scene, colouring=Colouring("heat", steps=7))):
+        drawing = vp.draw(own, "top", page="200x100", fit=False)
+        (layer,) = (layer for layer in drawing.layers if layer.name == "section")
+        found.append(np.unique(np.concatenate([paths.points3d[:, 0] for paths in layer.strokes]).round(6)).tolist())
+    assert found[0] == found[1] == [0.8, 1.6, 2.4, 3.2]
