@@ -320,10 +320,6 @@ class SheetSection:
         """Whether some of it is seen from outside."""
         return any(zone.offset is None for zone in self.zones)
 
-    def condition(self, zone: Zone) -> str:
-        """The plane of the cut in words, whose side of the eye is taken away."""
-        return f"{'xyz'[self.axis]} = {zone.offset!r}"
-
     def shown(self, scene: Scene, zone: Zone) -> Scene:
         """The part as a zone shows it before it is cut."""
         if self.hinge is None or (self.normal is None and zone.turn_deg == 0.0):

@@ -44,6 +44,7 @@ from vectorplot.pictures.draw import draw
 from vectorplot.pictures.pipeline import StageReport, stoppable
 from vectorplot.pictures.sheet_annotations import (
     BALLOONS_ROOM_MM,
+    NUMBERED,
     TEXT_MM,
     Annotation,
     AssemblyPart,
@@ -137,6 +138,7 @@ class _Part:
     level: bool
     parts: tuple[AssemblyPart, ...]
     left_out: Interruptions
+    uncut: frozenset[str]
 
     @property
     def balloons_in(self) -> str:
@@ -323,7 +325,7 @@ class _Views:
         if section is None:
             return scene
         (zone, *_) = section.zones
-        return self._cut(section.shown(scene, zone), section.condition(zone), view.camera)
+        return self._cut(section.shown(scene, zone), section.axis, zone.offset, view.camera)
 
     def _parts(self, view: SheetView, notes: Sequence[Scene], page: Page) -> list[Drawing]:
         """What a view shows without its notes, which are there, as polylines on a page."""
@@ -340,7 +342,7 @@ class _Views:
             away = self.factor * matmul(view.camera.axes[:2], np.array(one.centre) - part.middle)
             ring = one.waving_ring(middle + away, self.factor * one.radius)
             axis = int(np.argmax(np.abs(view.camera.axes[2])))
-            opened = self._cut(part.scene, f"{'xyz'[axis]} = {one.centre[axis]!r}", view.camera)
+            opened = self._cut(part.scene, axis, one.centre[axis], view.camera)
             inner = self._drawn(replace(opened, labels=()), view.camera, page, (), "none", curves="polyline")
             found.append(_of_strokes(inner, partial(inside_ring, ring=ring)))
             whole = _of_strokes(whole, partial(outside_ring, ring=ring))
@@ -421,7 +423,7 @@ class _Views:
         if section is not None:
             zone = section.zone_at(one.centre)
             scene = section.shown(scene, zone)
-            scene = scene if zone.offset is None else larger._cut(scene, section.condition(zone), camera)
+            scene = larger._cut(scene, section.axis, zone.offset, camera)
         hidden: Hidden = "none" if section is not None or one.view == "iso" else self.hidden
         drawn = larger._drawn(scene, moved, page, notes, hidden, curves="polyline")
         ring = one.ring(np.full(2, radius + 0.5), radius)
@@ -453,14 +455,22 @@ class _Views:
             **self.options,
         )
 
-    def _cut(self, scene: Scene, condition: str, camera: Camera) -> Scene:
-        """What is left of a scene behind a plane."""
-        return cut_scene(cut(scene, [condition], spacing_mm=self.spacing_mm), camera, _page_at(self.factor))
+    def _cut(self, scene: Scene, axis: int, offset: float | None, camera: Camera) -> Scene:
+        """What is left of a scene behind a plane across an axis; all of it where there is no plane."""
+        if offset is None:
+            return scene
+        left = [item for item in scene.items if item.name in self.part.uncut]
+        through = {item.name for item in left if np.ptp(np.sign(Scene((item,)).bounds[:, axis] - offset)) == 2.0}
+        items = [item.name for item in scene.items if item.name not in through]
+        condition = f"{'xyz'[axis]} = {offset!r}"
+        return cut_scene(
+            cut(scene, [condition], items=items, spacing_mm=self.spacing_mm), camera, _page_at(self.factor)
+        )
 
     def _zone(self, section: SheetSection, zone: Zone, camera: Camera, page: Page) -> Drawing:
         """What a section shows in one of its zones."""
         scene = replace(section.shown(self.part.scene, zone), labels=())
-        scene = scene if zone.offset is None else self._cut(scene, section.condition(zone), camera)
+        scene = self._cut(scene, section.axis, zone.offset, camera)
         drawn = self._drawn(scene, camera, page, (), "none", curves="polyline")
         level, along = (camera.axes[axis, section.across] for axis in (0, 1))
         axis, sign = (0, level) if abs(level) > abs(along) else (1, along)
@@ -605,6 +615,7 @@ def technical_sheet(
     projection: Literal["first", "third"] | None = None,
     page: Page | str | None = None,
     section: str | Iterable[str] | None = None,
+    uncut: str | Iterable[str] | None = None,
     cut_spacing_mm: float | None = None,
     detail_view: str | Iterable[str] | None = None,
     breakout: str | Iterable[str] | None = None,
@@ -669,6 +680,9 @@ def technical_sheet(
         in another plane at a step, and "aligned z at 0,0 from 180 to 60" has two planes through an axis parallel to z,
         at these angles, of which both are shown in full. "x+y=30" or a plane of any other direction is shown in full
         too: the part is turned, on the shortest way, so that it is across x, y or z.
+    uncut : str or iterable of str
+        Parts, or items and groups, that sections leave whole, such as bolts and shafts; a name is also that of those
+        that have a number behind it.
     cut_spacing_mm : float, optional
         From stroke to stroke of these hatches, 0.1 or more; where None about 2.4, on narrow faces half as much.
     detail_view : str or iterable of str
@@ -761,6 +775,7 @@ def technical_sheet(
         measured_in=measured_in,
         projection=projection,
         section=_texts(section),
+        uncut=_texts(uncut),
         detail_view=_texts(detail_view),
         breakout=_texts(breakout),
         interrupted=_texts(interrupted),
@@ -838,6 +853,7 @@ def technical_sheet(
         usual.level,
         listed if told.balloons else (),
         left_out,
+        _uncut(solid, told.uncut or ()),
     )
     given_page, first = page, way == "first"
     size = page.strip().split()[0].upper() if isinstance(page, str) else f"{page.width_mm:g}x{page.height_mm:g}"
@@ -1032,6 +1048,20 @@ def _check_sections(sections: Iterable[SheetSection], left_out: Interruptions) -
 def _page_at(factor: float) -> Callable[[Scene], InSpace]:
     """A page on which a unit of the world is so many mm, as cut_scene takes it."""
     return lambda scene: lambda points: np.full(len(points), 1.0 / factor)
+
+
+def _uncut(scene: Scene, asked: Iterable[str]) -> frozenset[str]:
+    """The names of the items that sections leave whole. Errors: InputError for a name of none."""
+    names: dict[str, set[str]] = {}
+    for item in scene.items:
+        for name in filter(None, (item.name, item.group)):
+            names.setdefault(name, set()).add(item.name)
+            names.setdefault(NUMBERED.sub("", name), set()).add(item.name)
+    asked = tuple(asked)
+    for name in asked:
+        if name not in names:
+            raise unknown("uncut: part", name, dict.fromkeys(item.group or item.name for item in scene.items))
+    return frozenset().union(*(names[name] for name in asked))
 
 
 def _without_traces(scene: Scene) -> Scene:

@@ -52,7 +52,7 @@ def _name_of_mesh(path: str) -> str:
 
 
 _OF_ASSEMBLY: dict[str, Any] = {
-    **{"title": None, "section": (), "detail_view": (), "breakout": (), "interrupted": ()},
+    **{"title": None, "section": (), "uncut": (), "detail_view": (), "breakout": (), "interrupted": ()},
     **{"balloons": False, "parts_list": False},
 }
 """What the sheets of parts have not, as that of the whole has."""
@@ -116,6 +116,12 @@ def _lying(page: str | None, standard: str | None, said: SheetSettings) -> str:
         "repeat it for more.",
     ),
     CUT_SPACING,
+    click.option(
+        "--uncut",
+        multiple=True,
+        metavar="PART",
+        help="What sections leave whole, such as bolts and shafts; repeat it for more.",
+    ),
     click.option(
         "--detail-view",
         multiple=True,
@@ -200,7 +206,7 @@ def sheet(scene_file: tuple[str, ...], out: str, format_: str | None, quiet: boo
     told |= {"cut_spacing_mm": told.pop("cut_spacing"), "title": told["title"] or None}
     told["frame"] = told["frame"] or None
     # What is not said here the scene may say.
-    told |= {name: told[name] or None for name in ("section", "detail_view", "breakout", "interrupted")}
+    told |= {name: told[name] or None for name in ("section", "uncut", "detail_view", "breakout", "interrupted")}
     told |= {name: dict(told[name]) or None for name in ("fields", "made_of")}
 
     apart, each_part = told.pop("explode"), told.pop("each_part")
