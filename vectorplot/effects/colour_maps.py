@@ -513,8 +513,8 @@ class ColourBar:
             values = round_heights(low, high, most)
             return replace(_numbers_of_steps(values), values=tuple((value - low) / (high - low) for value in values))
         values = logarithmic_numbers(low, high, most)
-        places = log(np.array(values) / low) / log(high / low)
-        return AxisNumbers(tuple(places.tolist()), tuple(map(_power_text, values)))
+        along = log(np.array(values) / low) / log(high / low)
+        return AxisNumbers(tuple(along.tolist()), tuple(map(_power_text, values)))
 
     def with_pens(self, rules: Sequence[PenRule]) -> tuple[PenRule, ...]:
         """The pens of the bands, and after them rules for the scene before it was coloured: what is for an item is for
