@@ -82,7 +82,12 @@ def _lying(page: str | None, standard: str | None, said: SheetSettings) -> str:
         metavar="VIEW,...",
         help=f"Some of {', '.join(VIEW_WORDS)}; each once.  [default: front,top,left,iso]",
     ),
-    click.option("--up", type=upwards, metavar="X,Y,Z", help="What is upwards, or x, y, z (default: z)."),
+    click.option(
+        "--up",
+        type=upwards,
+        metavar="X,Y,Z",
+        help="What is upwards, or x, y, z (default: z); sections and details are of what stands so.",
+    ),
     click.option(
         "--scale",
         metavar="A:B",
