@@ -1145,6 +1145,10 @@ USUAL_PART_TOLERANCE = 5e-5
 """Chords of edges of CAD parts are no farther off than this part of the diagonal of all that is read: 0.02 mm on a page
 A4."""
 
+SAME_REACH_OF_EXTENT = 1e-7
+"""Where the box that OpenCASCADE tells of a part is no farther off its triangles than this part of its diagonal, theirs
+counts: on some surfaces it adds 1e-7 mm."""
+
 LEAST_PART_TOLERANCE = 2e-6
 """Finer ones take minutes to read."""
 

@@ -436,3 +436,14 @@ def test_scene_files_include_parts(opencascade: None, tmp_path: Path, capsys: py
     (tmp_path / "other.scene").write_text("B gray box 1 1 1", encoding="utf-8")
     assert run(["draw", str(tmp_path / "other.scene"), "-o", out, "--parts", "exact"]) == 1
     assert "other.scene: a way of drawing parts is for CAD parts only" in capsys.readouterr().err
+
+
+def test_iges_files_that_end_amid_their_data_are_told(opencascade: None, tmp_path: Path):
+    writer = occ("IGESControl", "IGESControl_Writer")("MM", 0)
+    writer.AddShape(cad_parts.box(40, 30, 20))
+    writer.Write(str(tmp_path / "box.igs"))
+    whole = (tmp_path / "box.igs").read_bytes()
+    assert vp.read(tmp_path / "box.igs").items[0].mesh.is_closed
+    (tmp_path / "part.igs").write_bytes(whole[: int(0.9 * len(whole))])
+    with pytest.warns(vp.InputWarning, match=r"part\.igs: it ends amid its data: faces may be missing"):
+        vp.read(tmp_path / "part.igs")

@@ -40,6 +40,7 @@ from vectorplot.tolerances import (
     LEAST_DIVISOR,
     LEAST_PART_TOLERANCE,
     NO_CAD_NORMAL,
+    SAME_REACH_OF_EXTENT,
     SEWN_OF_EXTENT,
     USUAL_PART_TOLERANCE,
 )
@@ -357,7 +358,17 @@ def _read_document(path: Path, iges: bool) -> list[_Part]:
         raise InputError(f"not {kind} file that OpenCASCADE can read: it is damaged, or something else")
     if not reader.Transfer(document):
         raise InputError("it holds no shapes that OpenCASCADE can make")
+    if iges and not _ends_as_iges(path):
+        warnings.warn(f"{shown(path)}: it ends amid its data: faces may be missing", InputWarning, stacklevel=2)
     return _parts_of_document(document, path.stem)
+
+
+def _ends_as_iges(path: Path) -> bool:
+    """Whether the last line of a file is that of the last section of IGES files, with a T in its column 73."""
+    with path.open("rb") as file:
+        file.seek(max(path.stat().st_size - _BEGINNING, 0))
+        lines = [line for line in file.read().splitlines() if line.strip()]
+    return bool(lines) and lines[-1][72:73] == b"T"
 
 
 def _labels(fill: Callable[[Any], object]) -> list[Any]:
@@ -609,7 +620,8 @@ def _with_reach(item: Item, shape: Any, distance: float) -> Item:
     occ("BRepBndLib").BRepBndLib.AddOptimal_s(shape, box, False, False)
     found = np.array([corner.Coord() for corner in (box.CornerMin(), box.CornerMax())])
     # No surface is farther off its triangles: what OpenCASCADE tells then is the box of more than the face.
-    found = np.where(np.abs(found - reached) <= 2.0 * INSIDE_FACES * distance, found, reached)
+    off, same = np.abs(found - reached), SAME_REACH_OF_EXTENT * float(norm(np.ptp(reached, axis=0)))
+    found = np.where((off > same) & (off <= 2.0 * INSIDE_FACES * distance), found, reached)
     return replace(item, normals=replace(item.normals, bounds=found))
 
 
