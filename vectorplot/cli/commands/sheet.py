@@ -193,8 +193,8 @@ def sheet(scene_file: tuple[str, ...], out: str, format_: str | None, quiet: boo
     """Draw main views of INPUT in line with each other, at one exact scale with hidden lines dashed, and a title block;
     write OUT (svg, ps, eps, pdf, png, tex, dxf, json).
 
-    A named page lies on the side that gives the views more room. Sections and details are of the part as it stands along
-    --up. Several INPUTs become a sheet each, the pages of one PDF; so do the parts of one with --each-part.
+    A named page lies on the side that gives the views more room. Sections and details are of the part as it stands
+    along --up. Several INPUTs become a sheet each, the pages of one PDF; so do the parts of one with --each-part.
     """
     from vectorplot.pictures.nothing_seen import why_nothing
     from vectorplot.pictures.sheet_annotations import part_scenes
