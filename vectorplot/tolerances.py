@@ -654,6 +654,10 @@ ROUND_OF_RADIUS = 1e-3
 """A ring of edges whose vertices are off a circle by no more than this part of its radius is one: files of single
 precision and the rounding of programs that make them are finer, polygons that are not meant round far coarser."""
 
+OUTERMOST_OF_EXTENT = 1e-3
+"""Vertices within this part of the extent from the end of a part are where dimensions of the whole begin: triangles of
+round parts fall short of it by less, and an extension line that begins so much beside the part looks right."""
+
 PLAIN_NUMBER = 1e-3
 """Smaller numbers stand at an axis as powers of ten."""
 
@@ -1140,6 +1144,10 @@ of the trace."""
 USUAL_PART_TOLERANCE = 5e-5
 """Chords of edges of CAD parts are no farther off than this part of the diagonal of all that is read: 0.02 mm on a page
 A4."""
+
+SAME_REACH_OF_EXTENT = 1e-7
+"""Where the box that OpenCASCADE tells of a part is no farther off its triangles than this part of its diagonal, theirs
+counts: on some surfaces it adds 1e-7 mm."""
 
 LEAST_PART_TOLERANCE = 2e-6
 """Finer ones take minutes to read."""

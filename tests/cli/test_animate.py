@@ -241,3 +241,18 @@ def test_the_sample_movie_plays(monkeypatch, capsys):
         len({drawing.layers[0].fills[0].points.tobytes() for drawing in frame_drawings(read_movie("data/pencil"))})
         == 48
     )
+
+
+@pytest.mark.slow
+def test_films_read_molecules_and_parts_as_pictures_do(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    Path("turn.anim").write_text("mode lines frames 2 azimuth at 0 0 at 1 40", encoding="utf-8")
+    Path("water.xyz").write_text("3\nwater\nO 0 0 0\nH 0.76 0.59 0\nH -0.76 0.59 0\n", encoding="utf-8")
+    sizes = []
+    for style in ("ball-and-stick", "space-filling"):
+        assert run(["animate", "water.xyz", "-a", "turn", "-o", f"{style}/", "--molecules", style]) == 0
+        frame, _ = sorted(Path(style).glob("*.svg"))
+        sizes.append(frame.read_text(encoding="utf-8").count("<path"))
+    assert sizes[0] != sizes[1]
+    assert run(["animate", "water.xyz", "-a", "turn", "-o", "film.pdf", "--parts", "exact"]) == 1
+    assert "for CAD parts only" in capsys.readouterr().err

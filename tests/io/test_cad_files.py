@@ -279,6 +279,35 @@ def test_materials_of_parts_are_a_column_of_their_list(opencascade: None, tmp_pa
     assert vp.read(write_step(cad_parts.box(1, 1, 1), tmp_path / "box.step")).sheet is None
 
 
+@pytest.mark.slow
+def test_parts_measure_what_their_surfaces_do(opencascade: None, tmp_path: Path):
+    whole = Assembly()
+    disc = whole.part("disc", cad_parts.rod(75, 14))
+    whole.group("whole", (disc, (0, 0, 0)), (whole.part("pin", cad_parts.rod(8, 30)), (20, 20, 14)))
+    scene = vp.read(whole.write(tmp_path / "whole.step"))
+    assert np.abs(scene.bounds - [(-75, -75, 0), (75, 75, 44)]).max() < 1e-6
+    pin = vp.read(
+        write_step(cad_parts.moved(cad_parts.rod(8, 30, way=(1, 0, 0)), 0, 0, 0, turn=0.7), tmp_path / "p.step")
+    )
+    wide, high = 30 * math.cos(0.7) + 16 * math.sin(0.7), 30 * math.sin(0.7) + 16 * math.cos(0.7)
+    assert np.abs(np.ptp(pin.bounds, axis=0) - [wide, high, 16]).max() < 1e-6
+    for parts in ("triangles", "exact"):
+        sheet = vp.technical_sheet(vp.read(tmp_path / "whole.step", parts=parts), dimensions=True, text="real")
+        strings = [string for layer in sheet.layers for texts in layer.texts for string in texts.strings]
+        assert strings.count("150") == 2 and strings.count("44") == 1
+
+
+@pytest.mark.slow
+def test_sheets_show_no_lines_in_which_parts_only_touch(opencascade: None):
+    plate = cad_parts.cut(cad_parts.box(40, 40, 30), cad_parts.rod(8, 60, 20, 20, -5))
+    scene = scene_of({"plate": plate, "pin": cad_parts.moved(cad_parts.rod(8, 40), 20, 20, -5)})
+    sheet = vp.technical_sheet(scene, views="front", scale="1:1", breakout="front:20,20,15,6")
+    kinds = {layer.name for layer in sheet.layers if any(len(paths) for paths in layer.strokes)}
+    assert "intersection" not in kinds and {"contour", "hatch", "thin"} <= kinds
+    hidden = next(layer for layer in sheet.layers if layer.name == "hidden")
+    assert sum(len(paths) for paths in hidden.strokes) < 40
+
+
 def test_rims_of_bores_with_pins_in_them_are_whole(opencascade: None):
     plate = cad_parts.cut(cad_parts.box(40, 40, 10), cad_parts.rod(8, 20, 20, 20, -5))
     scene = scene_of({"plate": plate, "pin": cad_parts.moved(cad_parts.rod(8, 30), 20, 20, 0, turn=0.05)})
@@ -386,3 +415,35 @@ def test_the_command_reads_parts(opencascade: None, tmp_path: Path):
     out = tmp_path / "part.svg"
     assert run(["draw", str(path), "-o", str(out), "--quiet", "--curves", "arcs"]) == 0
     assert " A" in out.read_text()
+
+
+@pytest.mark.slow
+def test_scene_files_include_parts(opencascade: None, tmp_path: Path, capsys: pytest.CaptureFixture[str]):
+    whole = Assembly()
+    plate = whole.made_of(whole.coloured(whole.part("plate", cad_parts.box(40, 30, 4)), 0.2, 0.4, 0.8), "S235JR")
+    whole.group("whole", (plate, (0, 0, 0)), (whole.part("pin", cad_parts.rod(5, 9)), (20, 15, 4)))
+    whole.write(tmp_path / "whole.step")
+    told = 'include "whole.step" translation 0 0 10\ndimension from 0 0 10 to 40 0 10 offset 0 0 -8\n'
+    (tmp_path / "whole.scene").write_text(told + 'sheet field "A" "B"', encoding="utf-8")
+    scene = vp.read(tmp_path / "whole.scene")
+    assert [item.name for item in scene.items[:2]] == ["plate", "pin"] and scene.items[0].colour == "#3366cc"
+    assert np.abs(Scene(scene.items[:2]).bounds - [(0, 0, 10), (40, 30, 23)]).max() < 1e-6
+    assert scene.sheet is not None and scene.sheet.made_of == (("plate", "S235JR"),)
+    assert scene.sheet.fields == (("A", "B"),) and scene.items[1].exact is None
+    assert vp.read(tmp_path / "whole.scene", parts="exact").items[1].exact is not None
+    out = str(tmp_path / "whole.svg")
+    assert run(["sheet", str(tmp_path / "whole.scene"), "-o", out, "--parts-list", "--parts", "exact"]) == 0
+    (tmp_path / "other.scene").write_text("B gray box 1 1 1", encoding="utf-8")
+    assert run(["draw", str(tmp_path / "other.scene"), "-o", out, "--parts", "exact"]) == 1
+    assert "other.scene: a way of drawing parts is for CAD parts only" in capsys.readouterr().err
+
+
+def test_iges_files_that_end_amid_their_data_are_told(opencascade: None, tmp_path: Path):
+    writer = occ("IGESControl", "IGESControl_Writer")("MM", 0)
+    writer.AddShape(cad_parts.box(40, 30, 20))
+    writer.Write(str(tmp_path / "box.igs"))
+    whole = (tmp_path / "box.igs").read_bytes()
+    assert vp.read(tmp_path / "box.igs").items[0].mesh.is_closed
+    (tmp_path / "part.igs").write_bytes(whole[: int(0.9 * len(whole))])
+    with pytest.warns(vp.InputWarning, match=r"part\.igs: it ends amid its data: faces may be missing"):
+        vp.read(tmp_path / "part.igs")

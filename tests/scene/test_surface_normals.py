@@ -35,3 +35,18 @@ def test_normals_stay_upright_on_what_is_stretched_and_mirrored():
     sides = np.diff(moved.mesh.vertices, axis=0)
     assert np.allclose(moved.at_vertices @ sides.T, 0.0, atol=1e-15)
     assert np.allclose(np.linalg.norm(moved.at_vertices, axis=1), 1.0)
+
+
+def test_how_far_a_surface_reaches_is_known_while_axes_stay_axes():
+    triangle = vp.Mesh.from_triangles([(1, 0, 0), (0, 1, 0), (0, 0, 1)], [(0, 1, 2)])
+    ball = SurfaceNormals(
+        triangle, triangle.vertices, np.zeros(3, dtype=bool), bounds=np.array([[-1.0] * 3, [1.0] * 3])
+    )
+    scene = vp.Scene((vp.Item("ball", triangle, normals=ball),))
+    assert scene.bounds.tolist() == [[-1.0] * 3, [1.0] * 3]
+    moved = scene.turned("x", 90).scaled(2.0).moved(0.0, 0.0, 5.0)
+    assert moved.bounds.tolist() == [[-2.0, -2.0, 3.0], [2.0, 2.0, 7.0]]
+    # Of what is turned by less, or cut, the triangles tell.
+    assert (np.abs(scene.turned("x", 30).bounds) <= 1.0).all() and scene.turned("x", 30).bounds[0, 0] == 0.0
+    other = replace(scene.items[0], shape=triangle.moved(9.0, 0.0, 0.0))
+    assert vp.Scene((other,)).bounds[:, 0].tolist() == [9.0, 10.0]

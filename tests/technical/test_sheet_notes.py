@@ -294,3 +294,25 @@ def test_parts_that_a_view_does_not_show_have_no_balloon_and_are_told():
     with pytest.warns(vp.InputWarning, match="CORE: no balloon, for nothing is seen in that view; --explode"):
         sheet = vp.technical_sheet(parts, views="iso", balloons=True, parts_list=True, text="real")
     assert "CORE" in words_of(sheet) and {"1", "3"} <= set(words_of(sheet))
+
+
+@pytest.mark.parametrize("axis", [0, 2])
+def test_dimensions_of_the_whole_begin_where_the_part_ends(axis):
+    """A hub of 10 on a plate of 40, its foot above the lowest end of a pin: no line begins in the air."""
+    part = [box((40, 20, 4)), box((10, 10, 20)).moved(15, 5, 4), box((2, 2, 6)).moved(19, 9, -6)]
+    sheet = vp.technical_sheet(part, views="front", scale="1:1", dimensions=True)
+    whole = np.concatenate([points for _, points in strokes_of(sheet, "contour")])
+    (left, low), (right, top) = whole.min(axis=0), whole.max(axis=0)
+    wanted = f"extension {(40, 0, 30)[axis]}"
+    ends = [points.tolist() for name, points in strokes_of(sheet, "label") if name.startswith(wanted)]
+    begins = sorted(max(points, key=lambda point: point[1 if axis == 0 else 0]) for points in ends)
+    expected = [(left, low + 5.0), (right, low + 5.0)] if axis == 0 else [(left + 14.0, top), (left + 18.0, low)]
+    assert np.allclose(begins, expected)
+
+
+def test_dimensions_of_parts_that_are_moved_apart_leave_traces_out():
+    """A pin of 30 that is moved out of its plate by 40: the trace begins at its foot, 8 below the plate."""
+    scene = vp.Scene((vp.Item("plate", box((40, 20, 10))), vp.Item("pin", box((4, 4, 30)).moved(18, 8, -8))))
+    sheet = vp.technical_sheet(vp.exploded(scene, {"pin": (0, 0, 40)}), views="front", dimensions=True, text="real")
+    strings = [string for layer in sheet.layers for texts in layer.texts for string in texts.strings]
+    assert "62" in strings and "40" in strings

@@ -296,3 +296,32 @@ def test_a_break_through_nothing_has_no_line():
     sheet = vp.technical_sheet(ends, **told)
     assert layer(sheet, "thin") is None or not strokes_of(sheet, "thin")
     assert np.ptp(outlines(sheet)[:, :, 0]) == pytest.approx(330 - 210 + 5)
+
+
+def test_aligned_sections_show_the_centre_lines_in_both_of_their_planes():
+    """Axes at 45 degrees, on the hinge, and beside both planes."""
+    disc = prism(regular_polygon(64, 30.0), (0, 0, 10))
+    axes = [vp.centre_line((x, y, -5), (x, y, 15)) for x, y in ((14, 14), (0, 0), (0, 20))]
+    sheet = vp.technical_sheet([disc, *axes], views="top", scale="1:1", section="aligned z at 0,0 from 180 to 45")
+    cut = np.concatenate([points for _, points in strokes_of(sheet, "cut")])
+    (left, low), (_, high) = cut.min(axis=0), cut.max(axis=0)
+    strokes = np.concatenate([points for _, points in strokes_of(sheet, "centre")])
+    within = strokes[(low - 5.1 < strokes[:, 1]) & (strokes[:, 1] < high + 5.1)]
+    assert (
+        np.unique(within[:, 0].round(2)).tolist()
+        == np.round([left + 30.0, left + 30.0 + 14.0 * np.sqrt(2.0)], 2).tolist()
+    )
+
+
+def test_sections_leave_parts_whole_that_their_plane_goes_through():
+    """A pin in the plane, and one before it, which goes as all else does."""
+    pins = [vp.Item(f"pin {k + 1}", box((4, 4, 20)).moved(18, y, -5)) for k, y in enumerate((8, 1))]
+    told = {"views": "top", "section": "y=10", "scale": "1:1"}
+    for uncut, hatched in (("pin", {"brick cut"}), (None, {"brick cut", "pin 1 cut"})):
+        sheet = vp.technical_sheet([BRICK, *pins], **told, uncut=uncut)
+        assert {name for name, _ in strokes_of(sheet, "hatch")} == hatched
+        # In the top view each pin is 4 high, in the section what is whole 20.
+        heights = [(name, round(float(np.ptp(points[:, 1])), 6)) for name, points in strokes_of(sheet, "contour")]
+        assert (("pin 1", 20.0) in heights) == (uncut is not None) and [h for n, h in heights if n == "pin 2"] == [4.0]
+    with pytest.raises(vp.InputError, match=r"uncut: part 'bolt': expected one of brick, pin 1, pin 2"):
+        vp.technical_sheet([BRICK, *pins], **told, uncut=["bolt"])

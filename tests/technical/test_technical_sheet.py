@@ -12,6 +12,7 @@ import pytest
 import vectorplot as vp
 from vectorplot.cli.main import run
 from vectorplot.cli.verbs import vectorplot
+from vectorplot.drawing.drawing import CurvedStrokes
 from vectorplot.geometry import box, prism, regular_polygon
 from vectorplot.io.scene_language import parse_scene
 from vectorplot.pictures.sheet_annotations import round_edges
@@ -328,3 +329,16 @@ def test_what_places_itself_leaves_what_the_user_has_written():
     marks, letters = boxes[large], boxes[~large & (np.ptp(boxes[:, :, 1], axis=1) > 2.0)]
     meet = (marks[:, None, 0] < letters[:, 1]) & (marks[:, None, 1] > letters[:, 0])
     assert len(marks) >= 4 and len(letters) > 20 and not meet.all(axis=2).any()
+
+
+def test_circles_of_meshes_are_arcs_on_sheets_that_ask_for_them():
+    plate = prism(regular_polygon(48, 15.0), (0, 0, 4))
+    told = {"views": "top", "scale": "1:1"}
+    radii = []
+    for curves in ("bezier", "arcs"):
+        marks = layer(vp.technical_sheet(plate, **told, curves=curves), "contour").marks
+        arcs = [arc for mark in marks if isinstance(mark, CurvedStrokes) for arc in mark.arcs.first]
+        radii.append([float(np.hypot(*arc).round(3)) for arc in arcs])
+    assert radii == [[], [15.0]]
+    with pytest.raises(vp.InputError, match="curves"):
+        vp.technical_sheet(plate, **told, curves="splines")

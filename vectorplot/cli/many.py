@@ -176,7 +176,8 @@ def inputs_of(named: Sequence[str]) -> tuple[str, ...]:
 
 
 def _holds_shapes(path: Path) -> bool:
-    from vectorplot.io.read_file import CAD_SUFFIXES, MOLECULE_SUFFIXES, TERRAIN_SUFFIXES
+    from vectorplot.io.named_files import CAD_SUFFIXES
+    from vectorplot.io.read_file import MOLECULE_SUFFIXES, TERRAIN_SUFFIXES
     from vectorplot.io.read_mesh import MESH_SUFFIXES
 
     return path.suffix.lower() in (".scene", *MESH_SUFFIXES, *CAD_SUFFIXES, *MOLECULE_SUFFIXES, *TERRAIN_SUFFIXES)
@@ -217,7 +218,7 @@ def _tasks(verb: str, params: Mapping[str, Any], outs: Mapping[str, str]) -> Ite
 def files_of(names: Sequence[str]) -> tuple[Path, ...]:
     """Those of the names that are files, and all files that the texts among them name in quotes; the files' own places
     are where these names begin."""
-    from vectorplot.io.read_file import CAD_SUFFIXES
+    from vectorplot.io.named_files import CAD_SUFFIXES
     from vectorplot.io.read_mesh import MESH_SUFFIXES
 
     found: dict[Path, None] = {}

@@ -475,13 +475,8 @@ class LineOptions:
 
     def _of_colours(self) -> dict[str, Any]:
         """The fields of a colouring that the user gave."""
-        exclusive(
-            [
-                ("--colour-classes", self.colour_classes),
-                ("--colour-range", self.colour_range),
-                ("--colour-steps", self.colour_steps),
-            ]
-        )
+        for other in (("--colour-range", self.colour_range), ("--colour-steps", self.colour_steps)):
+            exclusive([("--colour-classes", self.colour_classes), other])
         low, high = self.colour_range or (None, None)
         told = {
             **{"colour_map": self.colour_map, "steps": self.colour_steps, "low": low, "high": high},
@@ -753,6 +748,10 @@ BACKGROUND = click.option(
     "--background",
     metavar="COLOUR",
     help="Behind the picture: a palette, a plain colour or #rrggbb.  [default: that of the scene or the style]",
+)
+
+CURVES = click.option(
+    "--curves", type=of_option("curves"), default="bezier", help="How curves and circles of meshes leave."
 )
 
 TOLERANCE = click.option(

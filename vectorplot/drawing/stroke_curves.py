@@ -392,10 +392,12 @@ def _rounded(mark: Paths | CurvedStrokes, tolerance_mm: float) -> Paths | Curved
 
 
 def _with_arc_runs(mark: Paths | CurvedStrokes, tolerance_mm: float) -> Paths | CurvedStrokes:
-    """The mark with strokes as Bézier curves where some of their points in a row lie on a circle; others stay."""
+    """The mark with strokes as Bézier curves where some of their points in a row lie on a circle; others stay. Smooth
+    strokes are such if they are straight elsewhere."""
     drawn = one_mark((mark,))
     paths, near = drawn.paths, ON_ARC * tolerance_mm
-    plain = ~paths.smooth & (np.diff(drawn.beziers.offsets) == 0) & (np.diff(paths.offsets) > 2)
+    plain = (paths.smooth | (np.diff(drawn.beziers.offsets) == 0)) & (np.diff(paths.offsets) > 2)
+    plain[drawn.arcs.stroke] = False
     which = np.flatnonzero(plain)
     if not len(which):
         return mark
@@ -413,7 +415,8 @@ def _with_arc_runs(mark: Paths | CurvedStrokes, tolerance_mm: float) -> Paths | 
     start = np.where(some.closed, np.minimum(np.minimum.reduceat(number, some.offsets[:-1]), sizes - 1), 0)
     count = sizes + some.closed
     place = (ragged.place(count) + np.repeat(start, count)) % np.repeat(sizes, count)
-    points, offsets = some.points[np.repeat(some.offsets[:-1], count) + place], ragged.offsets(count)
+    at = np.repeat(some.offsets[:-1], count) + place
+    points, directions, offsets = some.points[at], some.directions[at], ragged.offsets(count)
     same = _on_one_circle(points, offsets, np.zeros(len(some), dtype=np.bool_))
     first = np.flatnonzero(same & ~np.concatenate([[False], same[:-1]]))
     last = np.flatnonzero(same & ~np.concatenate([same[1:], [False]]))
@@ -440,12 +443,18 @@ def _with_arc_runs(mark: Paths | CurvedStrokes, tolerance_mm: float) -> Paths | 
     order = np.lexsort((np.concatenate([np.zeros(len(straight), dtype=np.intp), ragged.place(pieces)]), at))
     stroke = np.searchsorted(offsets, at[order], side="right") - 1
     has_arc = np.isin(np.arange(len(some)), np.searchsorted(offsets, begin, side="right") - 1)
+    leaves = np.stack([directions[straight, 1], directions[straight + 1, 0]], axis=1)
+    bow = np.abs(_crossed(ends[:, 1] - ends[:, 0], leaves)).max(axis=1, initial=0.0) / 4.0
+    owner = np.searchsorted(offsets, straight, side="right") - 1
+    has_arc[owner[some.smooth[owner] & ~(bow <= near)]] = False
     control, stroke = control[order][has_arc[stroke]], stroke[has_arc[stroke]]
     own = np.flatnonzero(has_arc)
     off = np.zeros(len(some))
     of_arc = np.searchsorted(offsets, begin, side="right") - 1
     widest = np.abs(arcs.end - arcs.start) / (length - 1)
-    np.maximum.at(off, of_arc, curves.error + norm(arcs.first) * (1.0 - np.cos(widest / 2.0)) + near)
+    # Smooth strokes are no polygons that stand for a curve.
+    sagitta = np.where(some.smooth[of_arc], 0.0, norm(arcs.first) * (1.0 - np.cos(widest / 2.0)))
+    np.maximum.at(off, of_arc, curves.error + sagitta + near)
     per_stroke = np.bincount(stroke, minlength=len(some))[own]
     mixed = BezierPaths(control, ragged.offsets(per_stroke), some.closed[own], off[own])
     shift = np.zeros(len(paths), dtype=np.intp)
@@ -453,9 +462,14 @@ def _with_arc_runs(mark: Paths | CurvedStrokes, tolerance_mm: float) -> Paths | 
     sizes = np.diff(paths.offsets)
     place = (ragged.place(sizes) + np.repeat(shift, sizes)) % np.repeat(sizes, sizes)
     paths = with_points(paths, np.repeat(paths.offsets[:-1], sizes) + place, np.arange(len(paths)), paths.offsets)
-    known = np.flatnonzero(np.diff(drawn.beziers.offsets))
+    known = np.setdiff1d(np.flatnonzero(np.diff(drawn.beziers.offsets)), which[own])
     beziers = _in_places((take(drawn.beziers, known), mixed), (known, which[own]), paths)
     return CurvedStrokes(paths, beziers, drawn.arcs)
+
+
+def _crossed(ways: Floats, angles: Floats) -> Floats:
+    """(n,k) how far unit vectors at angles (n,k) are across vectors (n,2), times the lengths of these."""
+    return ways[:, :1] * np.sin(angles) - ways[:, 1:] * np.cos(angles)
 
 
 def _on_one_circle(points: Floats, offsets: Ints, closed: Bools) -> Bools:

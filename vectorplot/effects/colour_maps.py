@@ -86,7 +86,11 @@ def axis_numbers(low: float, high: float) -> AxisNumbers:
 
     Edge cases: where both ends are the same that one.
     """
-    values = _round(low, high)
+    return _numbers_of_steps(_round(low, high))
+
+
+def _numbers_of_steps(values: tuple[float, ...]) -> AxisNumbers:
+    """What stands at values that are evenly apart."""
     if len(values) < 2:
         return AxisNumbers(values, tuple(f"{value:.6g}" for value in values))
     step = values[1] - values[0]
@@ -94,8 +98,23 @@ def axis_numbers(low: float, high: float) -> AxisNumbers:
     counted = np.rint((np.array(values) - offset) / step) * step
     texts = _texts(counted.tolist(), step, 0)
     power = _power(float(np.abs(counted).max())) if max(map(len, texts)) > LONGEST else 0
-    common = [*([f"× 10{str(power).translate(_HIGH)}"] if power else []), *([_added(offset)] if offset else [])]
+    common = [*([_times(power)] if power else []), *([_added(offset)] if offset else [])]
     return AxisNumbers(values, _texts(counted.tolist(), step, power), " ".join(common))
+
+
+def _numbers_of_limits(values: tuple[float, ...]) -> AxisNumbers:
+    """What stands at values that are anywhere."""
+    texts = tuple(f"{value:.6g}" for value in values)
+    if max(map(len, texts)) <= LONGEST and "e" not in "".join(texts):
+        return AxisNumbers(values, texts)
+    power = _power(max(map(abs, values)))
+    shorter = tuple(f"{value / 10.0**power:.6g}" for value in values)
+    better = max(map(len, shorter)) < max(map(len, texts))
+    return AxisNumbers(values, shorter, _times(power)) if better else AxisNumbers(values, texts)
+
+
+def _times(power: int) -> str:
+    return f"× 10{str(power).translate(_HIGH)}"
 
 
 def single_number(low: float, high: float) -> AxisNumbers:
@@ -481,19 +500,21 @@ class ColourBar:
         """The number at the upper end."""
         return self.limits[-1]
 
-    def ticks(self, most: int = BAR_TICKS) -> list[tuple[float, str]]:
-        """Where numbers stand along the bar, 0 to 1, and what these are: about so many of them."""
+    def numbers(self, most: int = BAR_TICKS) -> AxisNumbers:
+        """What stands along the bar, and where, 0 to 1: about so many numbers."""
         low, high = self.low, self.high
         if self.colouring.at:
             every = max(1, math.ceil(len(self.limits) / (2.0 * most)))
-            return [(k / len(self.colours), f"{limit:.6g}") for k, limit in enumerate(self.limits)][::every]
+            places = tuple(k / len(self.colours) for k in range(len(self.limits)))
+            return replace(_numbers_of_limits(self.limits[::every]), values=places[::every])
         if not low < high:
-            return [(0.5, f"{low:.6g}")]
+            return AxisNumbers((0.5,), (f"{low:.6g}",))
         if not self.colouring.logarithmic:
-            return [((value - low) / (high - low), f"{value:.6g}") for value in round_heights(low, high, most)]
+            values = round_heights(low, high, most)
+            return replace(_numbers_of_steps(values), values=tuple((value - low) / (high - low) for value in values))
         values = logarithmic_numbers(low, high, most)
-        places = log(np.array(values) / low) / log(high / low)
-        return [(place, _power_text(value)) for place, value in zip(places.tolist(), values, strict=True)]
+        along = log(np.array(values) / low) / log(high / low)
+        return AxisNumbers(tuple(along.tolist()), tuple(map(_power_text, values)))
 
     def with_pens(self, rules: Sequence[PenRule]) -> tuple[PenRule, ...]:
         """The pens of the bands, and after them rules for the scene before it was coloured: what is for an item is for
@@ -544,13 +565,14 @@ def coloured(scene: Scene, colouring: Colouring) -> tuple[Scene, ColourBar]:
         if whole is None:
             items.append(item)
             continue
-        lines = _kept_lines(item.curves)
+        lines = _kept_lines(item)
+        fields = item.fields if lines.contours else None
         own = []
         numbers = _scaled(colouring, whole.values, limits[0])
         parts = level_bands(whole.points, numbers, whole.triangles, _scaled(colouring, levels, limits[0]))
         if whole.without is not None:
             bare = replace(item, name=f"{item.name} 0", shape=whole.without, patterns=(), curves=lines)
-            items.append(replace(bare, group=item.group or item.name, fields=None))
+            items.append(replace(bare, group=item.group or item.name, fields=fields))
             own.append(bare.name)
         for k in range(len(colours)):
             mesh = welded(parts.mesh(k))[0] if whole.is_stepped else parts.mesh(k)
@@ -559,7 +581,7 @@ def coloured(scene: Scene, colouring: Colouring) -> tuple[Scene, ColourBar]:
                 group = item.group or item.name
                 band = replace(item, name=name, shape=mesh, colour=colours[k], patterns=(), curves=lines, group=group)
                 band = band if unlit is None else replace(band, material=unlit)
-                items.append(replace(band, fields=None, face_looks=None, normals=whole.normals))
+                items.append(replace(band, fields=fields, face_looks=None, normals=whole.normals))
                 own.append(name)
                 pens.extend(PenRule(kind, name, colour=colours[k]) for kind in IN_COLOURS)
                 pens.append(PenRule("boundary", name, width_mm=LINE_MM))
@@ -568,11 +590,17 @@ def coloured(scene: Scene, colouring: Colouring) -> tuple[Scene, ColourBar]:
     return replace(scene, items=tuple(items), colouring=None), bar
 
 
-def _kept_lines(lines: SurfaceLines) -> SurfaceLines:
-    """Those lines that meshes have too."""
+def _kept_lines(item: Item) -> SurfaceLines:
+    """Those lines that bands of an item have too; contours of fields at the values that they have on the whole."""
+    lines = item.curves
     if not lines:
         return NO_LINES
-    return replace(lines, columns=0, rows=0, paths=(), integral=(), terrain=(), smooth_contours=False)
+    numbers = {} if item.fields is None else item.fields.at_vertices
+    levels = [(one, one.levels(numbers[one.name]) if one.name in numbers else one.values) for one in lines.contours]
+    contours = tuple(replace(one, values=values) for one, values in levels if values)
+    return replace(
+        lines, columns=0, rows=0, paths=(), integral=(), terrain=(), smooth_contours=False, contours=contours
+    )
 
 
 def _faceted(scene: Scene, numbers: Sequence[int], allowed: float) -> dict[int, Facets]:
@@ -809,9 +837,9 @@ def _natural_mm(colouring: Colouring, margin_mm: float) -> float:
 def _stands_above(colouring: Colouring) -> bool:
     """Whether the title has room above the bar; otherwise it runs along it, behind the numbers."""
     size = TITLE_TIMES * colouring.capitals_mm
-    return float(np.ptp(typeset(colouring.title, size_mm=size).bounds, axis=0)[0]) < BESIDE_MM * size / (
-        TITLE_TIMES * BAR_LETTERS_MM
-    )
+    # Not up to the edge of the page.
+    room = (BESIDE_MM - BAR_GAP_MM) * size / (TITLE_TIMES * BAR_LETTERS_MM)
+    return float(np.ptp(typeset(colouring.title, size_mm=size).bounds, axis=0)[0]) < room
 
 
 def narrower(page: Page, colouring: Colouring) -> Page:
@@ -852,17 +880,21 @@ def with_colour_bar(
             marks.append(_polygon(ends, shade_of(colour)))
     lines = [np.array([*bottom, *top, bottom[0]])]
     texts = []
-    for place, number in bar.ticks(max(2, min(BAR_TICKS, int((high - low) / (TICKS_APART * size))))):
+    numbers = bar.numbers(max(2, min(BAR_TICKS, int((high - low) / (TICKS_APART * size)))))
+    for place, number in zip(numbers.values, numbers.texts, strict=True):
         at = low + (high - low) * place
         lines.append(np.array([(right, at), (right + unit * TICK_MM, at)]))
         texts.append(_letters(text, number, (right + unit * (TICK_MM + 1.0), at), size, "left", "middle"))
+    behind = max((float(one.bounds[1, 0]) for one in texts), default=right + unit * TICK_MM)
+    above = high + size + (0.0 if own.over is None else tip)
+    if numbers.common:
+        texts.append(_letters(text, numbers.common, (left, above), size, "left", "base"))
+        above += TICKS_APART * size
     if own.title and _stands_above(own):
-        above = high + size + (0.0 if own.over is None else tip)
         texts.append(_letters(text, own.title, (left, above), TITLE_TIMES * size, "left", "base"))
     elif own.title:
-        numbers = max((float(one.bounds[1, 0]) for one in texts), default=right + unit * TICK_MM)
-        behind = numbers + (TITLE_BEHIND + 0.5 * TITLE_TIMES) * size, 0.5 * (low + high)
-        texts.append(_letters(text, own.title, behind, TITLE_TIMES * size, "centre", "middle", 90.0))
+        middle = behind + (TITLE_BEHIND + 0.5 * TITLE_TIMES) * size, 0.5 * (low + high)
+        texts.append(_letters(text, own.title, middle, TITLE_TIMES * size, "centre", "middle", 90.0))
     lines += [one.strokes[k] for one in texts for k in range(len(one.strokes))]
     marks.append(_strokes(lines, drawing.page_from_world, longest_mm))
     set_ = Texts.joined([one.texts for one in texts])

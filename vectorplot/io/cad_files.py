@@ -40,6 +40,7 @@ from vectorplot.tolerances import (
     LEAST_DIVISOR,
     LEAST_PART_TOLERANCE,
     NO_CAD_NORMAL,
+    SAME_REACH_OF_EXTENT,
     SEWN_OF_EXTENT,
     USUAL_PART_TOLERANCE,
 )
@@ -357,7 +358,17 @@ def _read_document(path: Path, iges: bool) -> list[_Part]:
         raise InputError(f"not {kind} file that OpenCASCADE can read: it is damaged, or something else")
     if not reader.Transfer(document):
         raise InputError("it holds no shapes that OpenCASCADE can make")
+    if iges and not _ends_as_iges(path):
+        warnings.warn(f"{shown(path)}: it ends amid its data: faces may be missing", InputWarning, stacklevel=2)
     return _parts_of_document(document, path.stem)
+
+
+def _ends_as_iges(path: Path) -> bool:
+    """Whether the last line of a file is that of the last section of IGES files, with a T in its column 73."""
+    with path.open("rb") as file:
+        file.seek(max(path.stat().st_size - _BEGINNING, 0))
+        lines = [line for line in file.read().splitlines() if line.strip()]
+    return bool(lines) and lines[-1][72:73] == b"T"
 
 
 def _labels(fill: Callable[[Any], object]) -> list[Any]:
@@ -534,7 +545,7 @@ def _scene(parts: Sequence[_Part], tolerance: float, drawn: str) -> Scene:
     if drawn not in PARTS:
         raise unknown("way of drawing parts", drawn, PARTS)
     unmapped = dict[str, str]()
-    shapes, boxes, made = Numbers(), dict[int, Floats](), dict[tuple[int, bytes], list[Item]]()
+    shapes, boxes, made = Numbers(), dict[int, Floats](), dict[tuple[int, bytes], list[tuple[Item, Any]]]()
     numbers = [shapes.of(part.shape) for part in parts]
     for number, part in zip(numbers, parts, strict=True):
         boxes.setdefault(number, _corners(part.shape))
@@ -553,9 +564,11 @@ def _scene(parts: Sequence[_Part], tolerance: float, drawn: str) -> Scene:
             made[key] = _items_of_part(part, tolerance * extent, extent, unmapped if drawn == "exact" else None)
         several = len(made[key]) > 1 and not part.group
         group = _told_apart(part.name, taken) if several else part.group
-        own = [replace(item, group=group) for item in made[key]]
-        items += own if (matrix == np.eye(4)).all() else [item.transformed(matrix) for item in own]
-        triangles += sum(item.mesh.face_count for item in made[key])
+        for item, shape in made[key]:
+            own = replace(item, group=group)
+            own = own if (matrix == np.eye(4)).all() else own.transformed(matrix)
+            items.append(_with_reach(own, shape.Moved(part.location), tolerance * extent))
+            triangles += item.mesh.face_count
         if triangles > MOST_TRIANGLES:
             raise InputError(f"its parts take more than {MOST_TRIANGLES} triangles: allow a coarser tolerance")
     if not items:
@@ -598,13 +611,30 @@ def _moved(points: Floats, matrix: Floats) -> Floats:
     return matmul(points, matrix[:3, :3].T) + matrix[:3, 3]
 
 
-def _items_of_part(part: _Part, distance: float, extent: float, unmapped: dict[str, str] | None) -> list[Item]:
-    """The items of a part where it stands alone; distance: how far chords of edges may be off; extent: of all that is
-    read; unmapped: takes which of them have no surfaces, by name, and why; None where none are asked for."""
+def _with_reach(item: Item, shape: Any, distance: float) -> Item:
+    """The item with how far its shape reaches, which its triangles may fall short of; distance: how far chords of edges
+    may be off."""
+    if item.normals is None or item.normals.bounds is not None:
+        return item
+    box, reached = occ("Bnd").Bnd_Box(), item.mesh.bounds
+    occ("BRepBndLib").BRepBndLib.AddOptimal_s(shape, box, False, False)
+    found = np.array([corner.Coord() for corner in (box.CornerMin(), box.CornerMax())])
+    # No surface is farther off its triangles: what OpenCASCADE tells then is the box of more than the face.
+    off, same = np.abs(found - reached), SAME_REACH_OF_EXTENT * float(norm(np.ptp(reached, axis=0)))
+    found = np.where((off > same) & (off <= 2.0 * INSIDE_FACES * distance), found, reached)
+    return replace(item, normals=replace(item.normals, bounds=found))
+
+
+def _items_of_part(
+    part: _Part, distance: float, extent: float, unmapped: dict[str, str] | None
+) -> list[tuple[Item, Any]]:
+    """The items of a part where it stands alone, each with its shape; distance: how far chords of edges may be off;
+    extent: of all that is read; unmapped: takes which of them have no surfaces, by name, and why; None where none are
+    asked for."""
     solids = list(explored(part.shape, "SOLID"))
     free = list(explored(part.shape, "FACE", outside="SOLID"))
     sewn, open_ = _sewn(free, SEWN_OF_EXTENT * extent) if free else ([], [])
-    items = list[Item]()
+    items = list[tuple[Item, Any]]()
     for shape, closes in [*((one, True) for one in (*solids, *sewn)), *((one, False) for one in open_)]:
         called, own = part.within(shape)
         name, colour = called or part.name, part.colour if own is None else own
@@ -625,7 +655,8 @@ def _items_of_part(part: _Part, distance: float, extent: float, unmapped: dict[s
         if left:
             text = f"{name}: {left} faces could not be divided into triangles: they are left out"
             warnings.warn(text, InputWarning, stacklevel=2)
-        items += made if unmapped is None else [_with_surfaces(item, shape, unmapped) for item in made]
+        made = made if unmapped is None else [_with_surfaces(item, shape, unmapped) for item in made]
+        items += [(_with_reach(item, shape, distance), shape) for item in made]
     return items
 
 

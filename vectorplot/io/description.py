@@ -102,7 +102,8 @@ def _box(low: Floats, high: Floats) -> str:
 def _told(item: Item, report: MeshReport | None) -> str:
     shape = item.shape
     if isinstance(shape, Mesh) and report is not None:
-        return _counts(shape, report)
+        bounds = np.array(report.bounds) if item.surface_bounds is None else item.surface_bounds
+        return f"{_counts(shape, report)}, {_box(*bounds)}"
     if is_curve(shape):
         return _curve(shape)
     assert is_parametrised(shape) or is_implicit(shape)
@@ -161,4 +162,4 @@ def _counts(mesh: Mesh, report: MeshReport) -> str:
     if not report.oriented:
         words.append("faces disagree about the outside")
     words.append("convex" if report.convex else "not convex")
-    return ", ".join(words) + ", " + _box(*np.array(report.bounds))
+    return ", ".join(words)

@@ -1,4 +1,4 @@
-"""The files that a scene file may name: meshes, and other scenes."""
+"""The files that a scene file may name: meshes, parts of CAD systems, and other scenes."""
 
 from __future__ import annotations
 
@@ -13,6 +13,12 @@ from vectorplot.io.scene_words import Words
 DEEPEST = 16
 """So many scene files may include one another in a row."""
 
+CAD_SUFFIXES = (".step", ".stp", ".iges", ".igs", ".brep")
+"""Files of CAD systems."""
+
+NO_PARTS = f"a way of drawing parts is for CAD parts only ({', '.join(CAD_SUFFIXES)})"
+"""What is said where it is asked for in a file without any."""
+
 MOST_FILES = 1000
 """So many files a scene may be made of."""
 
@@ -22,18 +28,26 @@ class NamedFiles:
     """Where the names of files in a scene file lead to.
 
     root: the folder of the file that the user named, out of which nothing is read; chain: the files that include one
-    another, the one that is read last; opened: all that were read, which grows.
+    another, the one that is read last; tolerance, parts: of CAD parts among them, see cad_files.cad_scene, None for the
+    usual ones; opened: all that were read, which grows.
     """
 
     root: Path
     chain: tuple[Path, ...]
+    tolerance: float | None = None
+    parts: str | None = None
     opened: list[Path] = field(default_factory=list)
 
     @classmethod
-    def of(cls, path: Path) -> NamedFiles:
+    def of(cls, path: Path, tolerance: float | None = None, parts: str | None = None) -> NamedFiles:
         """Those of a file that the user named."""
         found = path.resolve()
-        return cls(found.parent, (found,))
+        return cls(found.parent, (found,), tolerance, parts)
+
+    @property
+    def has_parts(self) -> bool:
+        """Whether CAD parts are among those that were read."""
+        return any(path.suffix.lower() in CAD_SUFFIXES for path in self.opened)
 
     def named(self, words: Words, at: int, owner: str, suffixes: Sequence[str] = ()) -> Path:
         """The file that a string names, relative to the file it stands in.

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from vectorplot.errors import InputError
 from vectorplot.io.mesh_file import check_file, shown
-from vectorplot.io.named_files import data_file_or_name
+from vectorplot.io.named_files import CAD_SUFFIXES, NO_PARTS, data_file_or_name
 from vectorplot.io.read_mesh import MESH_SUFFIXES, mesh_scene
 from vectorplot.scene.scene import Scene
 
@@ -90,7 +90,6 @@ def unsupported_kind(path: Path, head: bytes) -> str | None:
 MOLECULE_SUFFIXES = (".xyz", ".pdb", ".ent", ".cif", ".mmcif")
 TERRAIN_SUFFIXES = (".asc",)
 SCENE_SUFFIXES = (".scene", ".txt")
-CAD_SUFFIXES = (".step", ".stp", ".iges", ".igs", ".brep")
 
 
 def read(
@@ -112,8 +111,8 @@ def read(
     path = Path(data_file_or_name(os.fspath(path)))
     check_file(path)
     is_molecule = path.suffix.lower() in MOLECULE_SUFFIXES and not _is_terrain(path)
-    if parts is not None and path.suffix.lower() not in CAD_SUFFIXES:
-        raise InputError(f"a way of drawing parts is for CAD parts only ({', '.join(CAD_SUFFIXES)})", file=shown(path))
+    if parts is not None and (is_molecule or _is_terrain(path) or path.suffix.lower() in MESH_SUFFIXES):
+        raise InputError(NO_PARTS, file=shown(path))
     if molecules is not None and not is_molecule:
         raise InputError("a style of molecules is for molecules only (xyz, pdb, cif)", file=shown(path))
     if _is_terrain(path):
@@ -135,7 +134,7 @@ def read(
         fine = USUAL_PART_TOLERANCE if tolerance is None else tolerance
         return cad_scene(path, fine) if parts is None else cad_scene(path, fine, parts)
     _check_text(path)
-    return _scene_text(path)
+    return _scene_text(path, tolerance, parts)
 
 
 def _is_terrain(path: Path) -> bool:
@@ -147,12 +146,12 @@ def _is_terrain(path: Path) -> bool:
     return holds_points(path)
 
 
-def _scene_text(path: Path) -> Scene:
-    """The scene that a text describes; what is wrong with it may be that it is none."""
+def _scene_text(path: Path, tolerance: float | None, parts: str | None) -> Scene:
+    """The scene that a text describes; what is wrong with it may be that it is none. tolerance, parts: see read."""
     from vectorplot.io.scene_language import read_scene
 
     try:
-        return read_scene(path)
+        return read_scene(path, tolerance, parts)
     except InputError as error:
         if path.suffix.lower() in SCENE_SUFFIXES:
             raise
@@ -200,7 +199,7 @@ def read_named(
     if molecules is not None:
         raise InputError("a style of molecules is for molecules only (xyz, pdb, cif)", file=_NAME)
     if parts is not None:
-        raise InputError(f"a way of drawing parts is for CAD parts only ({', '.join(CAD_SUFFIXES)})", file=_NAME)
+        raise InputError(NO_PARTS, file=_NAME)
     if sys.stdin is None:
         raise InputError("it is closed", file=_NAME)
     data = sys.stdin.buffer.read(MAX_FILE_BYTES + 1)

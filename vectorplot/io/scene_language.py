@@ -16,7 +16,7 @@ from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.solids import IDENTITY
 from vectorplot.io.item_reader import ItemReader
 from vectorplot.io.mesh_file import shown
-from vectorplot.io.named_files import DEEPEST, NamedFiles
+from vectorplot.io.named_files import CAD_SUFFIXES, DEEPEST, NO_PARTS, NamedFiles
 from vectorplot.io.scene_item import Draft, finished
 from vectorplot.io.scene_statements import (
     INK_WORDS,
@@ -44,6 +44,7 @@ from vectorplot.scene.extent import check_range
 from vectorplot.scene.item import Item
 from vectorplot.scene.labels import Label
 from vectorplot.scene.light import Light
+from vectorplot.scene.page import SheetSettings
 from vectorplot.scene.pens import target_of, unknown_item
 from vectorplot.scene.scene import Scene, together
 from vectorplot.words import WIRE_STYLES, unknown
@@ -55,13 +56,25 @@ MAX_ITEMS = 1_000_000
 """The largest number of items in a scene file."""
 
 
-def read_scene(path: str | os.PathLike[str]) -> Scene:
-    """The scene that a file in the scene language describes.
+def read_scene(path: str | os.PathLike[str], tolerance: float | None = None, parts: str | None = None) -> Scene:
+    """The scene that a file in the scene language describes; tolerance, parts: of CAD parts in it, see read_file.read.
 
-    Source: Glaeser, chapter 3 and section 6.5.
+    Errors: InputError where parts is given and there are none. Source: Glaeser, chapter 3 and section 6.5.
     """
     name, file = printable(str(path)), Path(path)
-    return _Reader(Words(_text(file, name), name), NamedFiles.of(file)).annotated()
+    files = NamedFiles.of(file, tolerance, parts)
+    scene = _Reader(Words(_text(file, name), name), files).annotated()
+    if parts is not None and not files.has_parts:
+        raise InputError(NO_PARTS, file=name)
+    return scene
+
+
+def _parts(path: Path, files: NamedFiles) -> Scene:
+    """The parts in a file of a CAD system. Errors as in cad_scene."""
+    from vectorplot.io.cad_files import PARTS, cad_scene
+    from vectorplot.tolerances import USUAL_PART_TOLERANCE
+
+    return cad_scene(path, files.tolerance or USUAL_PART_TOLERANCE, files.parts or PARTS[0])
 
 
 def _text(file: Path, name: str) -> str:
@@ -140,6 +153,7 @@ class _Reader(ItemReader):
         self.moves: list[int] = []
         self.settings = Scene(items=())
         self.set: set[str] = set()
+        self.made_of: dict[str, str] = {}
         self.lit: list[tuple[int, Draft]] = []
 
     def annotated(self) -> Scene:
@@ -176,8 +190,17 @@ class _Reader(ItemReader):
         self.check_range()
         self.check_cuts()
         shown = [item for place, item in enumerate(self.items) if place not in self.parts] if self.parts else self.items
-        found = replace(self.settings, items=tuple(shown), lights=tuple(self.lights))
+        found = replace(self.settings, items=tuple(shown), lights=tuple(self.lights), sheet=self.sheet(shown))
         return self.labelled(found) if self.labels else found
+
+    def sheet(self, shown: Sequence[Item]) -> SheetSettings | None:
+        """What is said of the technical sheet, and what files of CAD systems say that parts are made of."""
+        names = {item.group or item.name for item in shown}
+        made_of = {name: said for name, said in self.made_of.items() if name in names}
+        if not made_of:
+            return self.settings.sheet
+        own = self.settings.sheet or SheetSettings()
+        return replace(own, made_of=tuple({**made_of, **dict(own.made_of or ())}.items()))
 
     def labelled(self, scene: Scene) -> Scene:
         """The scene with its labels, which may come before the items that they name."""
@@ -325,13 +348,17 @@ class _Reader(ItemReader):
                 self.source.fail(draft.index, f"{draft.owner}more than {MAX_ITEMS} items")
 
     def include(self) -> None:
-        """The items and lights of another file, and where they stand."""
+        """The items and lights of another scene, or the parts of a CAD system, and where they stand."""
         start = self.at
         if self.files is None:
             self.fail("include: a text without a file names no files")
         path = self.files.named(self.source, self.at + 1, "include: ")
-        files = self.files.within(self.source, start + 1, path)
-        scene = _Reader(Words(_text(path, shown(path)), shown(path)), files).scene()
+        if path.suffix.lower() in CAD_SUFFIXES:
+            scene = _parts(path, self.files)
+            self.made_of.update(() if scene.sheet is None else scene.sheet.made_of or ())
+        else:
+            files = self.files.within(self.source, start + 1, path)
+            scene = _Reader(Words(_text(path, shown(path)), shown(path)), files).scene()
         draft = Draft(path.name, start)
         self.at += 2
         self.modifiers(draft)

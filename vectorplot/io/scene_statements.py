@@ -267,7 +267,7 @@ def read_measures(words: Words, at: int) -> tuple[Measures, int]:
 SHEET_FLAGS = ("dimensions", "centre_lines", "frame", "balloons", "parts_list", "no_block")
 """What a sheet has."""
 
-SHEET_TEXTS = ("section", "detail_view", "breakout", "interrupted")
+SHEET_TEXTS = ("section", "uncut", "detail_view", "breakout", "interrupted")
 """What it may have several of, each a text in quotes."""
 
 _SHEET_LINES = ("author", "date")

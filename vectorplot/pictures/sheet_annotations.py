@@ -38,7 +38,7 @@ from vectorplot.scene.annotations import (
 from vectorplot.scene.item import Item
 from vectorplot.scene.labels import MEASURE, Along, AtVertex, Label, OnCurve
 from vectorplot.scene.scene import Scene
-from vectorplot.tolerances import ROUND_OF_RADIUS, ZERO_OF_EXTENT
+from vectorplot.tolerances import OUTERMOST_OF_EXTENT, ROUND_OF_RADIUS, ZERO_OF_EXTENT
 
 # The round edges of polyhedra, such as the rims of bores and of shafts, and the centre lines they call for.
 
@@ -640,24 +640,36 @@ class OverallDimension:
         room[0, 1 if self.is_level(camera) else 0] = OFFSET_MM + TEXT_MM
         return room
 
-    def annotation(self, camera: Camera, bounds: Floats, factor: float, world: Floats) -> Annotation:
-        """It, where a unit of the world is so many mm on paper, beside bounds (2,3), and beyond all else that reaches
-        so far, world (2,2), from the middle of these."""
+    def annotation(self, camera: Camera, part: Scene, centre: Floats, factor: float, world: Floats) -> Annotation:
+        """It, where a unit of the world is so many mm on paper, beside a part, and beyond all that reaches so far,
+        world (2,2), from a centre (3,). Extension lines begin where the part ends."""
         right, up, back = camera.axes
-        middle, half = bounds.mean(axis=0), 0.5 * np.ptp(bounds, axis=0)
+        middle, half = part.bounds.mean(axis=0), 0.5 * np.ptp(part.bounds, axis=0)
         low, high = (middle + sign * half[self.axis] * np.eye(3)[self.axis] for sign in (-1.0, 1.0))
         # Before the part, so that it does not lie in the dimension's way.
         nearest = float(matmul(np.abs(back), half)) * back
         level = self.is_level(camera)
-        beside = -(float(matmul(np.abs(up), half)) * up if level else float(matmul(np.abs(right), half)) * right)
-        ends = [point + nearest + beside for point in (low, high)]
-        along = right if level else up
-        start, end = sorted(ends, key=lambda point: float(matmul(point, along)))
-        outwards = up if level else right
-        others = float(world[0, 1 if level else 0]) - float(matmul(np.abs(outwards), half))
-        off = -outwards * (max(others, 0.0) + OFFSET_MM / factor)
+        along, inwards = (right, up) if level else (up, right)
+        reach = float(matmul(np.abs(inwards), half))
+        start, end = sorted((low + nearest, high + nearest), key=lambda point: float(matmul(point, along)))
+        others = float(world[0, 1 if level else 0]) - reach + float(matmul(middle - centre, inwards))
+        off = -inwards * (max(others, 0.0) + OFFSET_MM / factor)
         gap, beyond = DIMENSION_GAP_MM / factor, LINE_BEYOND_MM / factor
-        return Annotation(dimension(start, end, off, gap=gap, beyond=beyond))
+        made = dimension(start - reach * inwards, end - reach * inwards, off, gap=gap, beyond=beyond)
+        lines = []
+        for item, point in zip(made.items, (start, end), strict=False):
+            begin = point + (self._place(part, point, inwards) - gap) * inwards
+            line = Line.through(begin, point - reach * inwards + off * (1.0 + beyond / float(norm(off))))
+            lines.append(replace(item, shape=line))
+        return Annotation(replace(made, items=(*lines, *made.items[2:])))
+
+    def _place(self, part: Scene, end: Floats, inwards: Floats) -> float:
+        """How far inwards from its middle a part comes to an end of it along the axis: where its outermost vertices
+        are, or else where the box around it is."""
+        middle, extent = part.bounds.mean(axis=0), np.ptp(part.bounds, axis=0)
+        near = np.abs(part.vertices[:, self.axis] - end[self.axis]) <= OUTERMOST_OF_EXTENT * extent.max()
+        places = matmul(part.vertices[near] - middle, inwards)
+        return float(places.min()) if len(places) else -0.5 * float(matmul(np.abs(inwards), extent))
 
 
 def overall_dimensions(names: Sequence[str], bounds: Floats) -> tuple[OverallDimension, ...]:

@@ -275,6 +275,11 @@ class Zone:
     high: float = math.inf
     turn_deg: float = 0.0
 
+    def holds(self, places: Floats, zero: float) -> bool:
+        """Whether places (n,) along that axis are in it; of what lies on its border the part before it."""
+        low, high = float(places.min()), float(places.max())
+        return self.low - zero <= low and self.low + zero < high <= self.high + zero
+
 
 @dataclass(frozen=True)
 class LineEnd:
@@ -314,10 +319,6 @@ class SheetSection:
     def is_half(self) -> bool:
         """Whether some of it is seen from outside."""
         return any(zone.offset is None for zone in self.zones)
-
-    def condition(self, zone: Zone) -> str:
-        """The plane of the cut in words, whose side of the eye is taken away."""
-        return f"{'xyz'[self.axis]} = {zone.offset!r}"
 
     def shown(self, scene: Scene, zone: Zone) -> Scene:
         """The part as a zone shows it before it is cut."""

@@ -44,6 +44,7 @@ from vectorplot.pictures.draw import draw
 from vectorplot.pictures.pipeline import StageReport, stoppable
 from vectorplot.pictures.sheet_annotations import (
     BALLOONS_ROOM_MM,
+    NUMBERED,
     TEXT_MM,
     Annotation,
     AssemblyPart,
@@ -82,13 +83,14 @@ from vectorplot.pictures.sheet_views import (
 )
 from vectorplot.scene.annotations import annotation_points, only_annotations
 from vectorplot.scene.exploded import shown_apart
+from vectorplot.scene.item import Item
 from vectorplot.scene.labels import Along, AtVertex, Measures, OnCurve
 from vectorplot.scene.page import MM_PER_INCH, Page, SheetSettings
 from vectorplot.scene.placement import camera_of, page_of
 from vectorplot.scene.scene import Scene, together
 from vectorplot.scene.surface_lines import NO_LINES
 from vectorplot.tolerances import EDGE_ON_SINE, SAME_PLANE_OF_EXTENT
-from vectorplot.words import TEXT_WORDS, check_word, unknown
+from vectorplot.words import TEXT_WORDS, LineKind, check_word, unknown
 
 # The verb technical_sheet: main views of a part, side by side on one sheet, at one exact scale.
 
@@ -117,7 +119,7 @@ SEAM_MM = 4.0
 
 
 Hidden = Literal["none", "dashed", "solid"]
-Curves = Literal["bezier", "polyline"]
+Curves = Literal["bezier", "polyline", "arcs"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -136,6 +138,7 @@ class _Part:
     level: bool
     parts: tuple[AssemblyPart, ...]
     left_out: Interruptions
+    uncut: frozenset[str]
 
     @property
     def balloons_in(self) -> str:
@@ -181,12 +184,14 @@ class _Part:
 
     def centre_lines_in(self, section: SheetSection, extent: float) -> list[Annotation]:
         """The centre lines that a section shows: those in its planes, and the marks of circles behind these."""
-        camera = camera_of(section.like, self.scene)
-        known = self.annotations
-        if section.normal is not None:
-            known = tuple(replace(one, scene=section.shown(one.scene, section.zones[0])) for one in known)
-        square = [one for one in known if one.is_in_every_view and one.is_square_to(camera, extent)]
-        zero = SAME_PLANE_OF_EXTENT * extent
+        camera, zero = camera_of(section.like, self.scene), SAME_PLANE_OF_EXTENT * extent
+        known = [one for one in self.annotations if one.is_in_every_view]
+        if section.hinge is not None:
+            moved = [
+                (zone, replace(one, scene=section.shown(one.scene, zone))) for zone in section.zones for one in known
+            ]
+            known = [one for zone, one in moved if zone.holds(one.points[:, section.across], zero)]
+        square = [one for one in known if one.is_square_to(camera, extent)]
         marks = [one.is_mark and self._is_behind(one, section, camera, zero) for one in square]
         off = [float(section.offset_near(one.points).max()) for one in square]
         return [one for one, kept, far in zip(square, marks, off, strict=True) if kept or far <= zero]
@@ -277,14 +282,15 @@ class _Part:
 class _Views:
     """The views of a part at a scale, as drawings on pages of their own; factor: mm on paper for a unit of the world.
 
-    hidden: what becomes of hidden lines in main views; options: those of draw for every view; spacing_mm: of hatches,
-    see cut.
+    hidden: what becomes of hidden lines in main views; curves: how those leave that are whole; options: those of draw
+    for every view; spacing_mm: of hatches, see cut.
     """
 
     part: _Part
     factor: float
     spacing_mm: float | None
     hidden: Hidden
+    curves: Curves
     options: Mapping[str, Any]
 
     def drawing(self, view: SheetView, notes: Sequence[Scene]) -> Drawing:
@@ -319,7 +325,7 @@ class _Views:
         if section is None:
             return scene
         (zone, *_) = section.zones
-        return self._cut(section.shown(scene, zone), section.condition(zone), view.camera)
+        return self._cut(section.shown(scene, zone), section.axis, zone.offset, view.camera)
 
     def _parts(self, view: SheetView, notes: Sequence[Scene], page: Page) -> list[Drawing]:
         """What a view shows without its notes, which are there, as polylines on a page."""
@@ -336,7 +342,7 @@ class _Views:
             away = self.factor * matmul(view.camera.axes[:2], np.array(one.centre) - part.middle)
             ring = one.waving_ring(middle + away, self.factor * one.radius)
             axis = int(np.argmax(np.abs(view.camera.axes[2])))
-            opened = self._cut(part.scene, f"{'xyz'[axis]} = {one.centre[axis]!r}", view.camera)
+            opened = self._cut(part.scene, axis, one.centre[axis], view.camera)
             inner = self._drawn(replace(opened, labels=()), view.camera, page, (), "none", curves="polyline")
             found.append(_of_strokes(inner, partial(inside_ring, ring=ring)))
             whole = _of_strokes(whole, partial(outside_ring, ring=ring))
@@ -417,7 +423,7 @@ class _Views:
         if section is not None:
             zone = section.zone_at(one.centre)
             scene = section.shown(scene, zone)
-            scene = scene if zone.offset is None else larger._cut(scene, section.condition(zone), camera)
+            scene = larger._cut(scene, section.axis, zone.offset, camera)
         hidden: Hidden = "none" if section is not None or one.view == "iso" else self.hidden
         drawn = larger._drawn(scene, moved, page, notes, hidden, curves="polyline")
         ring = one.ring(np.full(2, radius + 0.5), radius)
@@ -431,7 +437,7 @@ class _Views:
         page: Page,
         notes: Sequence[Scene],
         hidden: Hidden,
-        curves: Curves = "bezier",
+        curves: Curves | None = None,
     ) -> Drawing:
         """What a camera sees of a scene, the middle of which is that of the page."""
         return draw(
@@ -443,20 +449,28 @@ class _Views:
             hidden=hidden,
             pens=PENS,
             dashes=DASHES,
-            curves=curves,
+            curves=curves or self.curves,
             # Views are of parts, not of what these show.
             reflections=0,
             **self.options,
         )
 
-    def _cut(self, scene: Scene, condition: str, camera: Camera) -> Scene:
-        """What is left of a scene behind a plane."""
-        return cut_scene(cut(scene, [condition], spacing_mm=self.spacing_mm), camera, _page_at(self.factor))
+    def _cut(self, scene: Scene, axis: int, offset: float | None, camera: Camera) -> Scene:
+        """What is left of a scene behind a plane across an axis; all of it where there is no plane."""
+        if offset is None:
+            return scene
+        left = [item for item in scene.items if item.name in self.part.uncut]
+        through = {item.name for item in left if np.ptp(np.sign(Scene((item,)).bounds[:, axis] - offset)) == 2.0}
+        items = [item.name for item in scene.items if item.name not in through]
+        condition = f"{'xyz'[axis]} = {offset!r}"
+        return cut_scene(
+            cut(scene, [condition], items=items, spacing_mm=self.spacing_mm), camera, _page_at(self.factor)
+        )
 
     def _zone(self, section: SheetSection, zone: Zone, camera: Camera, page: Page) -> Drawing:
         """What a section shows in one of its zones."""
         scene = replace(section.shown(self.part.scene, zone), labels=())
-        scene = scene if zone.offset is None else self._cut(scene, section.condition(zone), camera)
+        scene = self._cut(scene, section.axis, zone.offset, camera)
         drawn = self._drawn(scene, camera, page, (), "none", curves="polyline")
         level, along = (camera.axes[axis, section.across] for axis in (0, 1))
         axis, sign = (0, level) if abs(level) > abs(along) else (1, along)
@@ -504,8 +518,9 @@ class _Views:
         """The region of shapely that the part covers in a view."""
         import shapely
 
+        items = self.part.scene.items
         outline = draw(
-            replace(self.part.scene, labels=()),
+            replace(self.part.scene, labels=(), items=tuple(replace(item, lines=None, exact=None) for item in items)),
             replace(camera, height=page.height_mm / self.factor),
             page=page,
             fit=False,
@@ -600,6 +615,7 @@ def technical_sheet(
     projection: Literal["first", "third"] | None = None,
     page: Page | str | None = None,
     section: str | Iterable[str] | None = None,
+    uncut: str | Iterable[str] | None = None,
     cut_spacing_mm: float | None = None,
     detail_view: str | Iterable[str] | None = None,
     breakout: str | Iterable[str] | None = None,
@@ -620,6 +636,7 @@ def technical_sheet(
     hidden: Hidden | None = None,
     text: Literal["strokes", "real"] = "strokes",
     crease_angle_deg: float = 25.0,
+    curves: Curves = "bezier",
     shortest_mm: float | None = None,
     progress: Callable[[str, float], None] | None = None,
     explain: Callable[[StageReport], None] | None = None,
@@ -663,6 +680,9 @@ def technical_sheet(
         in another plane at a step, and "aligned z at 0,0 from 180 to 60" has two planes through an axis parallel to z,
         at these angles, of which both are shown in full. "x+y=30" or a plane of any other direction is shown in full
         too: the part is turned, on the shortest way, so that it is across x, y or z.
+    uncut : str or iterable of str
+        Parts, or items and groups, that sections leave whole, such as bolts and shafts; a name is also that of those
+        that have a number behind it.
     cut_spacing_mm : float, optional
         From stroke to stroke of these hatches, 0.1 or more; where None about 2.4, on narrow faces half as much.
     detail_view : str or iterable of str
@@ -702,6 +722,8 @@ def technical_sheet(
         See draw.
     crease_angle_deg : float
         See draw.
+    curves : {"bezier", "polyline", "arcs"}
+        See draw; views that are cut by circles and zones are polylines.
     shortest_mm : float, optional
         See draw: of what shows the part in every view.
     progress, explain : callable, optional
@@ -753,6 +775,7 @@ def technical_sheet(
         measured_in=measured_in,
         projection=projection,
         section=_texts(section),
+        uncut=_texts(uncut),
         detail_view=_texts(detail_view),
         breakout=_texts(breakout),
         interrupted=_texts(interrupted),
@@ -774,6 +797,7 @@ def technical_sheet(
     check_word("standard", told.standard, STANDARDS)
     check_word("text", text, TEXT_WORDS)
     check_word("hidden", told.hidden, get_args(Hidden))
+    check_word("curves", curves, get_args(Curves))
     usual = STANDARDS[str(told.standard)]
     way = told.projection or usual.projection
     check_word("projection", way, ("first", "third"))
@@ -785,7 +809,8 @@ def technical_sheet(
     per_unit = MM_PER[str(told.unit)]
     given = shown if per_unit == 1.0 else shown.scaled(per_unit)
     # Sheets have pens of their own.
-    given = replace(given if up is None else stood_up(given, up), inks=None)
+    given = given if up is None else stood_up(given, up)
+    given = replace(given, inks=None, items=tuple(map(_with_lines_of_sheets, given.items)))
     given = replace(given, measures=_measures(given.measures, usual, written_unit, decimals, zeros, comma))
     solid, annotations = without_annotations(given)
     edges: tuple[RoundEdge, ...] = ()
@@ -797,7 +822,7 @@ def technical_sheet(
         extent = float(np.ptp(left_out.moved(given.bounds, math.inf), axis=0).max())
         solid, annotations = without_annotations(together([given, *centre_lines_of(edges, extent)]))
     cameras = tuple(camera_of(name, solid) for name in names)
-    overall = overall_dimensions(names, solid.bounds) if told.dimensions else ()
+    overall = overall_dimensions(names, _without_traces(solid).bounds) if told.dimensions else ()
     sections = sections_of(told.section or (), names, solid.bounds)
     circled = (*names, *(one.letter for one in sections))
     texts = told.detail_view or ()
@@ -828,6 +853,7 @@ def technical_sheet(
         usual.level,
         listed if told.balloons else (),
         left_out,
+        _uncut(solid, told.uncut or ()),
     )
     given_page, first = page, way == "first"
     size = page.strip().split()[0].upper() if isinstance(page, str) else f"{page.width_mm:g}x{page.height_mm:g}"
@@ -860,10 +886,11 @@ def technical_sheet(
     _tell_left_out(annotations, notes.values())
     options = {"crease_angle_deg": crease_angle_deg, "text": text, "progress": progress, "explain": explain}
     options["shortest_mm"] = shortest_mm
-    drawer = _Views(part, factor, cut_spacing_mm, cast(Hidden, told.hidden), options)
+    drawer = _Views(part, factor, cut_spacing_mm, cast(Hidden, told.hidden), curves, options)
     placed = {view.name: (view, place) for view, place in zip(arranged.views, arranged.middles(factor), strict=True)}
     written: dict[str, Floats] = {}
     around: list[Layer] = []
+    measured = _without_traces(solid)
     for one in details:
         centres = [note.before(placed[one.letter][0].camera, part.bounds) for note in notes[one.view] if note.is_centre]
         drawn = drawer.detail(one, centres)
@@ -872,7 +899,7 @@ def technical_sheet(
     for view, (x, y) in (placed[name] for name in placed if name not in {one.letter for one in details}):
         added = [one.before(view.camera, part.bounds) for one in notes[view.name]]
         added += [
-            one.annotation(view.camera, part.bounds, factor, view.world).scene
+            one.annotation(view.camera, measured, part.middle, factor, view.world).scene
             for one in part.overall
             if one.view == view.name
         ]
@@ -1021,6 +1048,33 @@ def _check_sections(sections: Iterable[SheetSection], left_out: Interruptions) -
 def _page_at(factor: float) -> Callable[[Scene], InSpace]:
     """A page on which a unit of the world is so many mm, as cut_scene takes it."""
     return lambda scene: lambda points: np.full(len(points), 1.0 / factor)
+
+
+def _uncut(scene: Scene, asked: Iterable[str]) -> frozenset[str]:
+    """The names of the items that sections leave whole. Errors: InputError for a name of none."""
+    names: dict[str, set[str]] = {}
+    for item in scene.items:
+        for name in filter(None, (item.name, item.group)):
+            names.setdefault(name, set()).add(item.name)
+            names.setdefault(NUMBERED.sub("", name), set()).add(item.name)
+    asked = tuple(asked)
+    for name in asked:
+        if name not in names:
+            raise unknown("uncut: part", name, dict.fromkeys(item.group or item.name for item in scene.items))
+    return frozenset().union(*(names[name] for name in asked))
+
+
+def _without_traces(scene: Scene) -> Scene:
+    """What there is to measure of a scene whose parts are moved apart."""
+    return replace(scene, items=tuple(item for item in scene.items if item.lines != (LineKind.TRACE.word,)))
+
+
+def _with_lines_of_sheets(item: Item) -> Item:
+    """An item that has kinds of lines of its own where nobody asks for any has no others on a sheet: where parts touch,
+    as a pin in its bore, their triangles pierce."""
+    if item.default_lines is None or item.lines is not None:
+        return item
+    return replace(item, lines=tuple(word for word in LINES.split(",") if word in item.default_lines))
 
 
 def _round_edges(scene: Scene, crease_angle_deg: float) -> tuple[RoundEdge, ...]:

@@ -24,6 +24,7 @@ from vectorplot.scene.scales import Fields
 from vectorplot.scene.surface_lines import NO_LINES, SurfaceLines, linear_growth
 from vectorplot.surfaces.placed_surface import placed_shape
 from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_parametrised
+from vectorplot.tolerances import ZERO_OF_EXTENT
 from vectorplot.words import OWN_LINE_WORDS, check_colour, line_words
 
 if TYPE_CHECKING:
@@ -47,6 +48,8 @@ class SurfaceNormals:
         Those on sharp edges, with the normal of one side of them.
     places : LimitPlaces, optional
         Where its triangles lie on a limit surface of subdivision, which tells of all that is between vertices.
+    bounds : (2, 3) array of float, optional
+        The smallest and largest coordinates of the surface, where they are known better than by its vertices.
 
     Notes
     -----
@@ -67,16 +70,18 @@ class SurfaceNormals:
     at_vertices: Floats
     on_edge: Bools
     places: LimitPlaces | None = None
+    bounds: Floats | None = None
 
     def transformed(self, matrix: ArrayLike) -> SurfaceNormals:
-        """The normals of the surface under a 4x4 matrix acting on columns."""
+        """The normals of the surface under a 4x4 matrix acting on columns; bounds stay known if axes stay axes."""
         linear = np.asarray(matrix, dtype=np.float64)[:3, :3]
         # The adjugate turns normals as the inverse does, and mirrors them as faces are.
         turned = matmul(self.at_vertices, inverse_matrix(linear) * abs(determinant(linear)))
         length = norm(turned)[:, None]
         turned /= np.where(length > 0.0, length, 1.0)
         places = None if self.places is None else self.places.transformed(matrix)
-        return SurfaceNormals(self.mesh.transformed(matrix), turned, self.on_edge, places)
+        bounds = None if self.bounds is None else _moved_box(self.bounds, np.asarray(matrix, dtype=np.float64))
+        return SurfaceNormals(self.mesh.transformed(matrix), turned, self.on_edge, places, bounds)
 
     def has_faces_of(self, mesh: Mesh) -> bool:
         """Whether the faces are those of a mesh of triangles, one by one; along sharp edges they may be taken apart, so
@@ -90,6 +95,16 @@ class SurfaceNormals:
     def triangles(self) -> PlacedTriangles:
         """The triangles of the mesh: what was divided and cut since is looked up in them, item after item."""
         return PlacedTriangles(self.mesh)
+
+
+def _moved_box(bounds: Floats, matrix: Floats) -> Floats | None:
+    """The box (2,3) of what fills a box, under a matrix (4,4) that takes axes to axes; None for any other matrix."""
+    linear = matrix[:3, :3]
+    along = np.abs(linear) > ZERO_OF_EXTENT * np.abs(linear).max()
+    if (along.sum(axis=0) != 1).any() or (along.sum(axis=1) != 1).any():
+        return None
+    ends = matmul(bounds, np.where(along, linear, 0.0).T) + matrix[:3, 3]
+    return np.array([ends.min(axis=0), ends.max(axis=0)])
 
 
 @dataclass(frozen=True, eq=False)
@@ -309,6 +324,13 @@ class Item(Movable["Item"]):
     def mesh(self) -> Mesh:
         """The polyhedron; of a smooth surface or a curve a mesh without vertices and faces."""
         return self.shape if isinstance(self.shape, Mesh) else _NO_MESH
+
+    @property
+    def surface_bounds(self) -> Floats | None:
+        """(2,3) how far the surface reaches that the polyhedron stands for, where that is known; else None."""
+        if self.normals is None or self.normals.bounds is None or not self.normals.has_faces_of(self.mesh):
+            return None
+        return self.normals.bounds
 
 
 _NO_MESH = Mesh(np.zeros((0, 3)), np.zeros(0, dtype=np.intp), np.zeros(1, dtype=np.intp))

@@ -223,8 +223,8 @@ class SheetSettings:
         Its main views.
     scale, unit, standard, measured_in, projection, page, hidden : str, optional
         As the arguments of these names.
-    section, detail_view, breakout, interrupted : tuple of str, optional
-        Sections, details, local sections, and what is left out of long parts.
+    section, uncut, detail_view, breakout, interrupted : tuple of str, optional
+        Sections, the parts that these leave whole, details, local sections, and what is left out of long parts.
     dimensions, centre_lines, frame, block : bool, optional
         Whether it has them.
     author, date : str, optional
@@ -254,6 +254,7 @@ class SheetSettings:
     page: str | None = None
     hidden: str | None = None
     section: tuple[str, ...] | None = None
+    uncut: tuple[str, ...] | None = None
     detail_view: tuple[str, ...] | None = None
     breakout: tuple[str, ...] | None = None
     interrupted: tuple[str, ...] | None = None

@@ -174,7 +174,8 @@ class Scene(Movable["Scene"]):
 
     @cached_property
     def bounds(self) -> Floats:
-        """(2,3) smallest and largest coordinates over all items; zeros for an empty scene.
+        """(2,3) smallest and largest coordinates over all items; zeros for an empty scene. Parts of CAD systems reach
+        as far as their surfaces do, and not only their triangles.
 
         Errors: InputError, with the item's name, for a surface without a finite point.
         """
@@ -186,7 +187,8 @@ class Scene(Movable["Scene"]):
         if in_range(boxes).all():
             known = zip(smooth, balls, bodies, strict=True)
             smooth = [named for named, ball, body in known if ball is None and body is None]
-        corners = np.concatenate([self.vertices, boxes.reshape(-1, 3), _bounds(smooth).reshape(-1, 3)])
+        told = [box for item in self.items if (box := item.surface_bounds) is not None]
+        corners = np.concatenate([self.vertices, boxes.reshape(-1, 3), _bounds(smooth).reshape(-1, 3), *told])
         if not len(corners):
             return np.zeros((2, 3))
         return np.array([corners.min(axis=0), corners.max(axis=0)])

@@ -174,6 +174,13 @@ class FieldContours:
         if not self.values:
             raise InputError("contours: expected a value or more")
 
+    def levels(self, numbers: Floats) -> tuple[float, ...]:
+        """The values of a field whose numbers (n,) are these."""
+        if not isinstance(self.values, int):
+            return self.values
+        known = numbers[np.isfinite(numbers)]
+        return round_heights(float(known.min()), float(known.max()), self.values) if len(known) else ()
+
 
 @dataclass(frozen=True)
 class GeodesicLines:

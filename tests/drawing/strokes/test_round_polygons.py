@@ -1,12 +1,14 @@
 """Polygons of meshes that stand for circles and ellipses leave as arcs of these, with the error said."""
 
+from dataclasses import replace
+
 import ezdxf
 import numpy as np
 import pytest
 
 import vectorplot as vp
 from vectorplot.drawing.drawing import CurvedStrokes, Drawing, Layer, Paths, Pen
-from vectorplot.drawing.stroke_curves import rounding_error_mm, with_round_polygons
+from vectorplot.drawing.stroke_curves import curved_strokes, rounding_error_mm, with_round_polygons
 from vectorplot.io.scene_language import parse_scene
 
 PLAN = vp.Camera((0, 0, 1000), up=(0, 1, 0), parallel=True, height=100)
@@ -102,3 +104,29 @@ def test_the_plan_of_a_flange_for_the_laser_is_six_circles(tmp_path):
     assert sorted(round(circle.dxf.radius, 4) for circle in circles) == [4.0, 4.0, 4.0, 4.0, 10.0, 40.0]
     (error,) = [one.error for one in reports if one.name == "arcs" and one.error is not None]
     assert 40.0 * (1.0 - np.cos(np.pi / 96)) < error < 0.03
+
+
+def smooth_slot(bulge):
+    """A slot of radius 3 with 12 between the middles of its ends, as one smooth stroke; bulge: of its long sides."""
+    turn = np.linspace(-0.5, 0.5, 17) * np.pi
+    end = np.column_stack([6.0 + 3.0 * np.cos(turn), 3.0 * np.sin(turn)])
+    ahead = np.tile(turn + 0.5 * np.pi, (2, 1)).T
+    lean = np.arctan2(4.0 * bulge, 12.0)
+    ahead[-1, 1], ahead[0, 0] = np.pi - lean, lean
+    points = 50.0 + np.concatenate([end, -end])
+    paths = Paths.of_polylines((points,), closed=True)
+    return replace(paths, smooth=np.array([True]), directions=np.concatenate([ahead, ahead + np.pi]))
+
+
+def test_smooth_strokes_of_arcs_and_straight_lines_have_the_radius_of_their_arcs(tmp_path):
+    (layer,) = with_round_polygons([Layer("visible", Pen(), (curved_strokes(smooth_slot(0.0), 0.02),))], 0.02)
+    (slot,) = kinds_in_dxf(layer, tmp_path)
+    rows = [(x, y, bulge) for x, y, _, _, bulge in slot.get_points()]
+    assert (
+        slot.closed
+        and [round(float(bulge), 6) for *_, bulge in rows if bulge] == [pytest.approx(np.tan(np.pi / 8), abs=1e-3)] * 4
+    )
+    assert rounding_error_mm([layer]) is None
+    curves = curved_strokes(smooth_slot(0.5), 0.02)
+    (layer,) = with_round_polygons([Layer("visible", Pen(), (curves,))], 0.02)
+    assert np.array_equal(layer.marks[0].beziers.control, curves.beziers.control)

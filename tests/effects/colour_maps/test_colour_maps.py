@@ -14,9 +14,11 @@ from PIL import Image
 from scipy import ndimage
 
 import vectorplot as vp
+from vectorplot.cli.main import run
 from vectorplot.drawing import typeset
 from vectorplot.effects.colour_maps import (
     COLOUR_MAPS,
+    AxisNumbers,
     axis_numbers,
     coloured,
     logarithmic_numbers,
@@ -30,7 +32,7 @@ from vectorplot.geometry import ragged
 from vectorplot.io import parse_scene
 from vectorplot.io.scene_writer import write_scene
 from vectorplot.save import write
-from vectorplot.scene import BoxAxes, Colouring, terrain_scene
+from vectorplot.scene import BoxAxes, Colouring, FieldContours, Fields, terrain_scene
 from vectorplot.scene.labels import capital_height
 from vectorplot.scene.page import in_latex
 from vectorplot.surfaces import Sphere, Torus
@@ -295,7 +297,7 @@ def test_classes_have_the_areas_between_their_limits():
     scene, bar = coloured(SQUARE, Colouring("x", at=(1.0, 2.0, 8.0), under="black", over="red"))
     assert areas(scene) == pytest.approx({"S 1": 10.0, "S 2": 10.0, "S 3": 60.0, "S 4": 20.0})
     assert [one.colour for one in scene.items] == ["#000000", *bar.colours, "#ff0000"]
-    assert bar.limits == (1.0, 2.0, 8.0) and bar.ticks() == [(0.0, "1"), (0.5, "2"), (1.0, "8")]
+    assert bar.limits == (1.0, 2.0, 8.0) and bar.numbers() == AxisNumbers((0.0, 0.5, 1.0), ("1", "2", "8"))
 
 
 def test_what_is_beyond_a_range_has_the_last_colours_where_nothing_else_is_said():
@@ -308,8 +310,8 @@ def test_a_logarithmic_scale_has_equal_ratios():
     scene, bar = coloured(SQUARE, Colouring("10^(x/2.5)", low=1.0, high=1e4, steps=4, logarithmic=True))
     assert bar.limits == pytest.approx((1.0, 10.0, 100.0, 1000.0, 10000.0))
     assert areas(scene) == pytest.approx(dict.fromkeys(("S 1", "S 2", "S 3", "S 4"), 25.0), rel=0.02)
-    assert [text for _, text in bar.ticks()] == ["1", "10", "100", "1000", "10⁴"]
-    assert [place for place, _ in bar.ticks()] == pytest.approx([0.0, 0.25, 0.5, 0.75, 1.0])
+    assert bar.numbers().texts == ("1", "10", "100", "1000", "10⁴")
+    assert list(bar.numbers().values) == pytest.approx([0.0, 0.25, 0.5, 0.75, 1.0])
     below, _ = coloured(SQUARE, Colouring("x-5", steps=2, low=1.0, high=4.0, logarithmic=True, under="black"))
     assert areas(below) == pytest.approx({"S 1": 60.0, "S 2": 10.0, "S 3": 30.0}, rel=0.06)
     with pytest.raises(InputError, match="no number is positive"):
@@ -444,3 +446,32 @@ def test_nothing_shines_through_between_bands_of_lit_surfaces():
     inside = ndimage.binary_erosion(through < 200, iterations=3)
     assert inside.mean() > 0.2
     assert (through[inside] > 8).mean() < 2e-3 and through[inside].max() < 30
+
+
+@pytest.mark.parametrize("told", [{"steps": 10}, {"at": (0.0, 5e7, 1e8, 2e8)}])
+def test_long_numbers_at_the_bar_are_parts_of_a_power_of_ten_and_stay_on_the_page(told):
+    block = vp.Item("block", solid_box((30, 20, 10)))
+    scene = vp.Scene((block,), colouring=Colouring("2.5e8*x/30", label="stress", **told))
+    bar = coloured(scene, scene.colouring)[1]
+    assert bar.numbers().common == "× 10⁸" and max(map(len, bar.numbers().texts)) <= 3
+    drawing = vp.paint(scene, page="84x80", text="real")
+    texts = [string for layer in drawing.layers for texts in layer.texts for string in texts.strings]
+    assert "× 10⁸" in texts and not any("e+" in one for one in texts)
+
+
+def test_a_range_may_have_steps(tmp_path):
+    said = ["--colour-by", "z", "--colour-range=-4,0", "--colour-steps", "8"]
+    assert run(["paint", "data/torus.scene", *said, "-o", str(tmp_path / "steps.svg")]) == 0
+
+
+def test_contours_of_fields_stay_where_they_are_on_the_whole():
+    block = solid_box((4, 2, 1))
+    heat = Fields(block, {"heat": 2.5 * block.vertices[:, 0]})
+    lines = vp.SurfaceLines(contours=(FieldContours("heat", 4),))
+    scene = vp.Scene((vp.Item("block", block, fields=heat, curves=lines),))
+    found = []
+    for own in (scene, replace(scene, colouring=Colouring("heat", steps=7))):
+        drawing = vp.draw(own, "top", page="200x100", fit=False)
+        (layer,) = (layer for layer in drawing.layers if layer.name == "section")
+        found.append(np.unique(np.concatenate([paths.points3d[:, 0] for paths in layer.strokes]).round(6)).tolist())
+    assert found[0] == found[1] == [0.8, 1.6, 2.4, 3.2]

@@ -13,6 +13,7 @@ from vectorplot.cli.option_values import length, of_option, point
 from vectorplot.cli.options import (
     BUDGET,
     CAMERA_OPTIONS,
+    CURVES,
     CUT_OPTIONS,
     DRAWING_FORMATS,
     EXAGGERATION,
@@ -110,9 +111,7 @@ _FILES = ("scene_file", "out", "format_", "quiet", "explain", "exaggeration", "m
     REFLECTIONS,
     *HATCHING_OPTIONS,
     LAYERS,
-    click.option(
-        "--curves", type=of_option("curves"), default="bezier", help="How curves and circles of meshes leave."
-    ),
+    CURVES,
     TOLERANCE,
     TILES,
     *LINE_OPTIONS,

@@ -28,7 +28,7 @@ from vectorplot.cli.options import (
     shadows_option,
     with_options,
 )
-from vectorplot.cli.picture import located, progress_bar, reported_warnings, summed, table
+from vectorplot.cli.picture import Source, located, progress_bar, reported_warnings, summed, table
 
 if TYPE_CHECKING:
     from vectorplot.pictures.pipeline import StageReport
@@ -71,8 +71,8 @@ def animate(
     quiet: bool,
     **told: Any,
 ) -> None:
-    """Make the frames of SCENE, a scene file, mesh, molecule or terrain, as an animation file moves it, and write them
-    to OUT, or record them as a movie of polygons.
+    """Make the frames of SCENE, a scene file, mesh, CAD part, molecule or terrain, as an animation file moves it, and
+    write them to OUT, or record them as a movie of polygons.
 
     SCENE is looked for in the current folder and in the folder data, with and without .scene; the animation in the
     current folder and in the folders anim and data, with and without .anim; and both among the samples that came with
@@ -85,7 +85,6 @@ def animate(
     from vectorplot.animation.animation_file import read_animation
     from vectorplot.io.named_files import animation_file
     from vectorplot.io.named_files import data_file as found
-    from vectorplot.io.read_file import read
     from vectorplot.pictures.film import animate as film_of
 
     if frames_out is None and video is None:
@@ -99,11 +98,13 @@ def animate(
         raise click.UsageError("--explain is of work in this process: it does not go with --workers and --cluster")
     if told["text"] == "latex":
         raise click.UsageError("--text latex is of one picture")
+    exaggeration, molecules, parts = (told.pop(name) for name in ("exaggeration", "molecules", "parts"))
     asked = Told.of(told)
     assert asked.page is not None
+    source = Source((str(found(data_file)),), exaggeration, True, asked.fineness, molecules, parts)
     reports: list[StageReport] = []
     with reported_warnings(quiet=quiet), progress_bar(quiet=quiet) as progress:
-        cut = asked.cuts.of_scene(asked.added.with_materials(read(found(data_file))))
+        cut = asked.cuts.of_scene(asked.added.with_materials(source.read()))
         scene, kinds = asked.added.in_scene(cut)
         scene = replace(scene, camera=camera_from(asked.camera, scene), page=page_from(asked.page, scene))
         moving = read_animation(animation_file(animation), scene)
@@ -140,9 +141,6 @@ NOT_OF_FRAMES = {
         "scene_file",
         "out",
         "format_",
-        "exaggeration",
-        "molecules",
-        "parts",
         "panorama",
         "strips",
     )

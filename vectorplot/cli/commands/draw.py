@@ -10,6 +10,7 @@ import click
 from vectorplot.cli.option_values import at_least, number, of_option, place
 from vectorplot.cli.options import (
     BACKGROUND,
+    CURVES,
     DEPTH_CUE,
     DRAWING_FORMATS,
     FONT,
@@ -129,9 +130,7 @@ def hatching_from(options: Mapping[str, Any]) -> tuple[Hatching | Stippling | No
         show_default=False,
         help="Layers that plotters skip.  [default: none]",
     ),
-    click.option(
-        "--curves", type=of_option("curves"), default="bezier", help="How curves and circles of meshes leave."
-    ),
+    CURVES,
     TOLERANCE,
     TITLE,
     FRAME,

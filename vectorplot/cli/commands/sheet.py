@@ -11,6 +11,7 @@ import click
 
 from vectorplot.cli.option_values import upwards
 from vectorplot.cli.options import (
+    CURVES,
     CUT_SPACING,
     DRAWING_FORMATS,
     EXPLAIN,
@@ -44,14 +45,14 @@ if TYPE_CHECKING:
 
 def _name_of_mesh(path: str) -> str:
     """The name of a file without its suffix, where the file has no title of its own to say."""
-    from vectorplot.io.read_file import CAD_SUFFIXES
+    from vectorplot.io.named_files import CAD_SUFFIXES
     from vectorplot.io.read_mesh import MESH_SUFFIXES
 
     return Path(path).stem if Path(path).suffix.lower() in (*MESH_SUFFIXES, *CAD_SUFFIXES) else ""
 
 
 _OF_ASSEMBLY: dict[str, Any] = {
-    **{"title": None, "section": (), "detail_view": (), "breakout": (), "interrupted": ()},
+    **{"title": None, "section": (), "uncut": (), "detail_view": (), "breakout": (), "interrupted": ()},
     **{"balloons": False, "parts_list": False},
 }
 """What the sheets of parts have not, as that of the whole has."""
@@ -116,6 +117,12 @@ def _lying(page: str | None, standard: str | None, said: SheetSettings) -> str:
     ),
     CUT_SPACING,
     click.option(
+        "--uncut",
+        multiple=True,
+        metavar="PART",
+        help="What sections leave whole, such as bolts and shafts; repeat it for more.",
+    ),
+    click.option(
         "--detail-view",
         multiple=True,
         metavar="VIEW:X,Y,Z,R[,A:B]",
@@ -177,6 +184,7 @@ def _lying(page: str | None, standard: str | None, said: SheetSettings) -> str:
     TEXT,
     crease_angle_option("Sharper edges are creases."),
     PARTS,
+    CURVES,
     SHORTEST,
     EXPLAIN,
     QUIET,
@@ -185,8 +193,8 @@ def sheet(scene_file: tuple[str, ...], out: str, format_: str | None, quiet: boo
     """Draw main views of INPUT in line with each other, at one exact scale with hidden lines dashed, and a title block;
     write OUT (svg, ps, eps, pdf, png, tex, dxf, json).
 
-    A named page lies on the side that gives the views more room. Several INPUTs become a sheet each, the pages of one
-    PDF; so do the parts of one with --each-part.
+    A named page lies on the side that gives the views more room. Sections and details are of the part as it stands
+    along --up. Several INPUTs become a sheet each, the pages of one PDF; so do the parts of one with --each-part.
     """
     from vectorplot.pictures.nothing_seen import why_nothing
     from vectorplot.pictures.sheet_annotations import part_scenes
@@ -198,7 +206,7 @@ def sheet(scene_file: tuple[str, ...], out: str, format_: str | None, quiet: boo
     told |= {"cut_spacing_mm": told.pop("cut_spacing"), "title": told["title"] or None}
     told["frame"] = told["frame"] or None
     # What is not said here the scene may say.
-    told |= {name: told[name] or None for name in ("section", "detail_view", "breakout", "interrupted")}
+    told |= {name: told[name] or None for name in ("section", "uncut", "detail_view", "breakout", "interrupted")}
     told |= {name: dict(told[name]) or None for name in ("fields", "made_of")}
 
     apart, each_part = told.pop("explode"), told.pop("each_part")

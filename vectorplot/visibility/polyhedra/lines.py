@@ -39,7 +39,7 @@ from vectorplot.scene.item import Item
 from vectorplot.scene.page import Page
 from vectorplot.scene.placement import Placement, field_of_vision
 from vectorplot.scene.scene import Scene
-from vectorplot.scene.surface_lines import FieldContours, Roads, Serpentine, TerrainLines, WaterCourses, round_heights
+from vectorplot.scene.surface_lines import FieldContours, Roads, Serpentine, TerrainLines, WaterCourses
 from vectorplot.scene.view import View, first_coincident
 from vectorplot.tolerances import CUT_EDGE_OF_EXTENT
 from vectorplot.visibility.projected_faces import ProjectedFaces
@@ -456,11 +456,8 @@ def _field_contours(item: Item, mesh: Mesh, asked: FieldContours) -> MeshCurves:
     if item.fields is None or asked.name not in at_vertices:
         raise unknown(f"{item.name}: contours: field at the vertices", asked.name, at_vertices)
     numbers = item.fields.at(asked.name, mesh.vertices)
-    levels = asked.values
-    if isinstance(levels, int):
-        known = numbers[np.isfinite(numbers)]
-        levels = round_heights(float(known.min()), float(known.max()), levels) if len(known) else ()
-    return curves_of_values(face_triangles(mesh), np.array(levels, dtype=np.float64), lambda level: numbers - level)
+    levels = np.array(asked.levels(numbers), dtype=np.float64)
+    return curves_of_values(face_triangles(mesh), levels, lambda level: numbers - level)
 
 
 def _terrain_lines(item: Item, mesh: Mesh, asked: TerrainLines) -> MeshCurves:
