@@ -14,10 +14,9 @@ import vectorplot as vp
 from vectorplot.cli.commands.anamorphosis import anamorphosis
 from vectorplot.curves.bezier import bezier_points
 from vectorplot.drawing.stroke_curves import one_mark
-from vectorplot.effects.curved_mirrors import CurvedMirror
 from vectorplot.geometry import box
 from vectorplot.geometry.vectors import dot, norm
-from vectorplot.pictures.anamorphosis import Setting, _eye, _fitted, _mirror
+from vectorplot.pictures.anamorphosis import CurvedMirror, Setting, _eye, _fitted, _mirror
 from vectorplot.surfaces import Torus
 
 TOLERANCE = 0.02

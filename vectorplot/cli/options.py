@@ -959,7 +959,7 @@ def check_overlaid(out: str, format_: str) -> None:
 
 def _why_nothing(verb: str, scene: Scene, keywords: Mapping[str, Any]) -> str:
     """Why the picture of a scene is empty that a verb made with these keywords."""
-    from vectorplot.pictures.nothing_seen import why_nothing
+    from vectorplot.cli.picture import why_nothing
     from vectorplot.scene.page import Page
 
     size = keywords.get("size", (1, 1))

@@ -14,7 +14,7 @@ from vectorplot.geometry import intervals, ragged
 from vectorplot.geometry.budget import mapped, threads, workers
 from vectorplot.geometry.elementary import arctan2, tan
 from vectorplot.geometry.intervals import NUMBER_BITS
-from vectorplot.geometry.radix import radix_order
+from vectorplot.geometry.ragged import radix_order
 from vectorplot.scene.view import View
 from vectorplot.tolerances import COLLINEAR_OF_LENGTH, ONE_LINE_OF_EXTENT, TOUCHING_AT_MM
 from vectorplot.visibility.polyhedra import grid as grids

@@ -17,7 +17,7 @@ from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.budget import in_turn, mapped, may_stop, slices, workers
-from vectorplot.geometry.radix import ShortKeys, radix_order
+from vectorplot.geometry.ragged import ShortKeys, radix_order
 from vectorplot.geometry.vectors import cross, dot, norm
 from vectorplot.scene.hatching import DOT_MM, Hatching, Stippling
 from vectorplot.tolerances import (

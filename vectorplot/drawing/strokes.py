@@ -14,7 +14,7 @@ from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.polylines import joined as joined_of_polylines
 from vectorplot.geometry.polylines import take, with_points
-from vectorplot.geometry.radix import Keys, radix_order
+from vectorplot.geometry.ragged import Keys, radix_order
 from vectorplot.geometry.weld import close_points
 from vectorplot.tolerances import SUM_OF_LENGTHS
 

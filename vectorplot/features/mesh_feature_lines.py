@@ -21,7 +21,7 @@ from vectorplot.features.feature_lines import (
     line_function,
     zeros_between,
 )
-from vectorplot.features.implicit_tracing import ImplicitCurves
+from vectorplot.features.implicit_curves import ImplicitCurves
 from vectorplot.features.mesh_edge_lines import apart_at_creases
 from vectorplot.features.mesh_lines import (
     FaceTriangles,

@@ -9,6 +9,8 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import records
+from vectorplot.geometry.boxes import BoxStrips
+from vectorplot.geometry.budget import Block, in_blocks
 from vectorplot.geometry.records import Elements
 from vectorplot.geometry.vectors import all_components, dot
 from vectorplot.scene.view import View
@@ -25,7 +27,6 @@ from vectorplot.tolerances import (
     SEEN_ALONG_SINE,
 )
 from vectorplot.visibility.smooth import sight_lines
-from vectorplot.visibility.smooth.box_strips import Block, BoxStrips, in_blocks
 from vectorplot.visibility.smooth.events import Events, hopped, on_chord, once
 from vectorplot.visibility.smooth.sheets import Sheets
 from vectorplot.visibility.smooth.traced_curves import Curves, at_once, covered_sides, turn

@@ -12,6 +12,9 @@ from vectorplot.features.contours_and_isophotes import direction_across, in_plan
 from vectorplot.features.curve_tracing import Tracing
 from vectorplot.features.feature_lines import Detail, Sight
 from vectorplot.features.implicit_curves import (
+    ImplicitCurves,
+    ImplicitTracing,
+    all_curves,
     implicit_borders,
     implicit_contour,
     implicit_isophotes,
@@ -23,7 +26,6 @@ from vectorplot.features.implicit_curves import (
     without_touching,
 )
 from vectorplot.features.implicit_singular_lines import CuspidalEdges, DoubleLines
-from vectorplot.features.implicit_tracing import ImplicitCurves, ImplicitTracing, all_curves
 from vectorplot.features.mesh_feature_lines import implicit_feature_lines
 from vectorplot.features.polygonization import (
     ImplicitCentralContour,

@@ -30,14 +30,13 @@ from vectorplot.features.contours_and_isophotes import (
     tangent_sections,
 )
 from vectorplot.features.curve_tracing import SurfaceCurves, Tracing, extent, together
-from vectorplot.features.cuspidal_edges import singular_lines
 from vectorplot.features.feature_lines import Detail, Sight, surface_feature_lines
 from vectorplot.features.geodesic_curves import geodesics_between
 from vectorplot.features.hole_rims import hole_rims, trim_borders
 from vectorplot.features.parameter_curves import domain_borders, parameter_lines_of_each, surface_path
-from vectorplot.features.pinch_points import through_pinch_points
 from vectorplot.features.streamlines import DRAWN, evenly_spaced_curves
 from vectorplot.features.surface_integration import geodesics, integral_curves
+from vectorplot.features.surface_singularities import singular_lines, through_pinch_points
 from vectorplot.features.tangent_fields import AsymptoticDirections, PrincipalDirections, SteepestSlope
 from vectorplot.features.zero_curves import ALONG_A_LINE, EVERYWHERE, JUMPS
 from vectorplot.geometry.algebra import matmul

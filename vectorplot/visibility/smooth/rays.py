@@ -11,7 +11,8 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged, records
 from vectorplot.geometry.algebra import inverse_matrix
-from vectorplot.geometry.budget import in_turn
+from vectorplot.geometry.boxes import BoxStrips
+from vectorplot.geometry.budget import Block, in_blocks, in_turn
 from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.records import Elements
 from vectorplot.geometry.vectors import all_finite, dot, from_components, greatest_component, least_component, norm
@@ -30,7 +31,6 @@ from vectorplot.tolerances import (
     TOUCHING_OF_EXTENT,
 )
 from vectorplot.visibility.smooth import sight_lines
-from vectorplot.visibility.smooth.box_strips import Block, BoxStrips, in_blocks
 from vectorplot.visibility.smooth.sheets import ParametricSheet, Sheets
 
 # Sheets as targets of sight lines and of curves: a tree over the images of their triangles.

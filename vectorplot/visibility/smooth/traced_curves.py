@@ -13,7 +13,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.curves.bezier import bernstein, cubic_error, places
 from vectorplot.features.conditions import ImplicitSection
 from vectorplot.features.curve_tracing import SurfaceCurves
-from vectorplot.features.pinch_points import ThroughPinchPoints
+from vectorplot.features.surface_singularities import ThroughPinchPoints
 from vectorplot.geometry import ragged
 from vectorplot.geometry.budget import in_turn
 from vectorplot.geometry.elementary import arctan2
