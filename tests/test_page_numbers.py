@@ -14,7 +14,7 @@ from vectorplot.curves.derivatives import FENCE
 from vectorplot.drawing.drawing import Pen
 from vectorplot.drawing.fill_visibility import MOST_CLEAR, MOST_LAYERS
 from vectorplot.drawing.fills import SEAM_MM, FillKind
-from vectorplot.drawing.layers import PENS
+from vectorplot.drawing.pens import PENS
 from vectorplot.effects import glass, soft_shadows
 from vectorplot.effects.shadow_casters import EACH, SAMPLE
 from vectorplot.effects.shadows import MANY_CELLS, MOST_CELLS, MOST_LIGHTS

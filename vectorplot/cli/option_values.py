@@ -288,7 +288,7 @@ def _rules(pens: str | None, dashes: str | None) -> None:
 
 def layers(text: str) -> str:
     """What shares a layer, with commas."""
-    from vectorplot.drawing.pen_layers import layer_words
+    from vectorplot.drawing.layers import layer_words
 
     return _said(text, layer_words)
 

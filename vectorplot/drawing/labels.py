@@ -14,8 +14,8 @@ from vectorplot.arrays import Floats, Ints
 from vectorplot.drawing.drawing import Layer, Paths, Pen
 from vectorplot.drawing.fills import Colours, FillKind, Fills
 from vectorplot.drawing.formulas import FORMULA, without_formulas_in_strokes
-from vectorplot.drawing.layers import PENS
 from vectorplot.drawing.letters import Lettering, broken_at_blanks, lettered, typeset
+from vectorplot.drawing.pens import PENS
 from vectorplot.drawing.strokes import chosen, concatenated, joined, split_long
 from vectorplot.drawing.text_along import (
     grown,

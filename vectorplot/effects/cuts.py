@@ -14,7 +14,7 @@ import numpy as np
 from vectorplot.arrays import Floats, Ints
 from vectorplot.curves.curve import Curve, is_curve
 from vectorplot.curves.cut_curve import CutCurve, parts_outside
-from vectorplot.drawing.layers import PENS
+from vectorplot.drawing.pens import PENS
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.features.contours_and_isophotes import plane_sections
 from vectorplot.features.curve_tracing import Tracing

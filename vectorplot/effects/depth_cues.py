@@ -14,7 +14,8 @@ import numpy as np
 from vectorplot.arrays import Floats, Ints
 from vectorplot.drawing.drawing import Layer, Paths, Pen
 from vectorplot.drawing.fills import Fills
-from vectorplot.drawing.layers import PENS, layers_of, shown_items
+from vectorplot.drawing.layers import layers_of, shown_items
+from vectorplot.drawing.pens import PENS
 from vectorplot.drawing.strokes import chosen, concatenated, sections, unrolled
 from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul

@@ -17,8 +17,9 @@ from vectorplot.curves.curve import is_curve
 from vectorplot.drawing.drawing import Drawing, Layer, Paths, Pen
 from vectorplot.drawing.finishing import inked
 from vectorplot.drawing.formulas import without_formulas_in_strokes
-from vectorplot.drawing.layers import BLACK, layers_by_kind
+from vectorplot.drawing.layers import layers_by_kind
 from vectorplot.drawing.letters import lettered
+from vectorplot.drawing.pens import BLACK
 from vectorplot.drawing.strokes import chosen
 from vectorplot.drawing.title_block import DrawingScale
 from vectorplot.errors import InputError, InputWarning

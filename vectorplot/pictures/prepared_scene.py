@@ -11,7 +11,7 @@ import numpy as np
 
 from vectorplot.arrays import Floats
 from vectorplot.drawing.drawing import Drawing, Layer, Pen
-from vectorplot.drawing.layers import FRAME_PEN
+from vectorplot.drawing.pens import FRAME_PEN
 from vectorplot.errors import InputWarning
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
