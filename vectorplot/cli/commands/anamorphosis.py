@@ -36,10 +36,9 @@ from vectorplot.cli.options import (
     drawing_format,
     format_option,
     lines_option,
-    tiles_beside,
     with_options,
 )
-from vectorplot.cli.picture import Companion, ReadSource, Source, make_picture
+from vectorplot.cli.picture import Companion, ReadSource, Source, make_picture, tiles_beside
 
 if TYPE_CHECKING:
     from collections.abc import Collection

@@ -188,7 +188,7 @@ def sheet(scene_file: tuple[str, ...], out: str, format_: str | None, quiet: boo
     A named page lies on the side that gives the views more room. Several INPUTs become a sheet each, the pages of one
     PDF; so do the parts of one with --each-part.
     """
-    from vectorplot.cli.picture import why_nothing
+    from vectorplot.pictures.nothing_seen import why_nothing
     from vectorplot.pictures.sheet_annotations import part_scenes
     from vectorplot.pictures.technical_sheet import technical_sheet
     from vectorplot.scene.page import Page, SheetSettings
