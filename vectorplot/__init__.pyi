@@ -10,7 +10,7 @@ from .features.zero_curves import zero_manifold_of_f_uv
 from .geometry.camera import Camera, Panorama
 from .geometry.mesh import Mesh
 from .geometry.polylines import Strokes
-from .pictures.anamorphosis import anamorphosis, anamorphosis_view
+from .pictures.anamorphosis import AnamorphicMirror, anamorphosis, anamorphosis_view
 from .pictures.development import development
 from .pictures.draw import draw
 from .pictures.film import Film, animate
@@ -60,6 +60,7 @@ __version__: str
 
 __all__ = [
     "Along",
+    "AnamorphicMirror",
     "Animation",
     "AtVertex",
     "Camera",

@@ -192,6 +192,87 @@ MARK_PEN = Pen(0.18)
 """What draws where the mirror and the eye are."""
 
 
+# What one looks into, and from where.
+
+
+@dataclass(frozen=True)
+class AnamorphicMirror:
+    """The mirror that unbends an anamorphosis, from where one looks into it, and how large the picture seems in it.
+
+    Parameters
+    ----------
+    kind : {"cylinder", "cone", "none"}
+        A cylinder that stands on the paper, a cone that is looked at from above its tip, or no mirror: then the paper
+        is looked at from a low eye, aslant.
+    radius_mm : float
+        Of the foot of the mirror.
+    height_mm : float, optional
+        Of the mirror: where None a cylinder is as high as it has to be, which the drawing says, and a cone is twice as
+        high as its radius.
+    viewer : (3,) sequence of float, optional
+        The eye, in mm from the middle of the mirror's foot: to the right, away from the lower edge of the page, and
+        above the paper; where None (0, -16, 14) radii for a cylinder, (0, 0, 16) for a cone, and (0, -400, 150) mm
+        without a mirror.
+    seen_mm : float, optional
+        How long the longer side of the picture seems to be, where it seems to stand in the axis of the mirror; where
+        None as suits the mirror.
+
+    Raises
+    ------
+    InputError
+        For another kind, lengths that are not positive, a cone not higher than its radius, and an eye that cannot look
+        into the mirror.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> vp.AnamorphicMirror("cone", radius_mm=20).eye.tolist()
+    [0.0, 0.0, 320.0]
+    """
+
+    kind: str = "cylinder"
+    radius_mm: float = 25.0
+    height_mm: float | None = None
+    viewer: Sequence[float] | None = None
+    seen_mm: float | None = None
+
+    def __post_init__(self) -> None:
+        check_options({"mirror": self.kind, **vars(self)})
+        for name, value in (("radius", self.radius_mm), ("height", self.height_mm)):
+            if value is not None and not 0.0 < value <= MOST_MM:
+                raise InputError(f"mirror: expected a positive {name} of at most {MOST_MM:.0f} mm, got {value:g}")
+        mirror, eye = self.curved, self.eye
+        if eye.shape != (3,) or not (np.abs(eye) <= MOST_MM).all():
+            raise InputError(f"viewer: expected three finite numbers of mm, at most {MOST_MM:.0f}, got {self.viewer!r}")
+        shown = ",".join(f"{value:g}" for value in eye.tolist())
+        if not eye[2] > 0.0:
+            raise InputError(f"viewer {shown}: expected an eye above the paper, at a height of more than 0 mm")
+        if mirror.kind == "cylinder" and float(norm(eye[:2])) <= mirror.radius:
+            raise InputError(
+                f"viewer {shown}: expected an eye beside the cylinder, more than {mirror.radius:g} mm off its axis"
+            )
+        if mirror.kind == "cone" and not eye[2] > mirror.height:
+            raise InputError(
+                f"viewer {shown}: expected an eye above the tip of the cone, higher than {mirror.height:g} mm"
+            )
+
+    @property
+    def curved(self) -> CurvedMirror:
+        """The mirror itself, with its usual height where none is given."""
+        usual = CONE_HEIGHT * self.radius_mm if self.kind == "cone" else np.inf
+        return CurvedMirror(self.kind, self.radius_mm, usual if self.height_mm is None else self.height_mm)
+
+    @property
+    def eye(self) -> Floats:
+        """(3,) from where one looks."""
+        if self.viewer is None:
+            return np.array(VIEWER_MM) if self.kind == "none" else self.radius_mm * np.array(VIEWER[self.kind])
+        try:
+            return np.asarray(self.viewer, dtype=np.float64)
+        except (TypeError, ValueError):
+            return np.zeros(0)
+
+
 # Where the picture seems to stand.
 
 
@@ -247,41 +328,6 @@ class Setting:
         area = x[:, 0] * y[:, 1] - x[:, 1] * y[:, 0]
         squares = half + np.sqrt(np.maximum(half * half - area * area, 0.0))
         return float(np.sqrt(squares.max(initial=0.0)))
-
-
-def _mirror(kind: str, radius_mm: float, height_mm: float | None) -> CurvedMirror:
-    """The mirror with its usual height where none is given. Errors: InputError as in CurvedMirror, and for lengths that
-    are not positive."""
-    for name, value in (("radius", radius_mm), ("height", height_mm)):
-        if value is not None and not 0.0 < value <= MOST_MM:
-            raise InputError(f"mirror: expected a positive {name} of at most {MOST_MM:.0f} mm, got {value:g}")
-    usual = CONE_HEIGHT * radius_mm if kind == "cone" else np.inf
-    return CurvedMirror(kind, radius_mm, usual if height_mm is None else height_mm)
-
-
-def _eye(viewer: Sequence[float] | None, mirror: CurvedMirror) -> Floats:
-    """(3,) from where one looks. Errors: InputError where one cannot look into the mirror from there."""
-    if viewer is None:
-        return np.array(VIEWER_MM if mirror.kind == "none" else VIEWER[mirror.kind]) * (
-            1.0 if mirror.kind == "none" else mirror.radius
-        )
-    try:
-        eye = np.asarray(viewer, dtype=np.float64)
-    except (TypeError, ValueError):
-        eye = np.zeros(0)
-    if eye.shape != (3,) or not (np.abs(eye) <= MOST_MM).all():
-        raise InputError(f"viewer: expected three finite numbers of mm, at most {MOST_MM:.0f}, got {viewer!r}")
-    shown = ",".join(f"{value:g}" for value in eye.tolist())
-    if not eye[2] > 0.0:
-        raise InputError(f"viewer {shown}: expected an eye above the paper, at a height of more than 0 mm")
-    away = float(norm(eye[:2]))
-    if mirror.kind == "cylinder" and away <= mirror.radius:
-        raise InputError(
-            f"viewer {shown}: expected an eye beside the cylinder, more than {mirror.radius:g} mm off its axis"
-        )
-    if mirror.kind == "cone" and not eye[2] > mirror.height:
-        raise InputError(f"viewer {shown}: expected an eye above the tip of the cone, higher than {mirror.height:g} mm")
-    return eye
 
 
 def _fitted(mirror: CurvedMirror, eye: Floats, outline: Floats, seen_mm: float | None) -> Setting:
@@ -616,11 +662,7 @@ def anamorphosis(
     picture: object,
     camera: Camera | None = None,
     *,
-    mirror: str = "cylinder",
-    radius_mm: float = 25.0,
-    height_mm: float | None = None,
-    viewer: Sequence[float] | None = None,
-    seen_mm: float | None = None,
+    mirror: AnamorphicMirror | str = "cylinder",
     page: Page | str | None = None,
     curves: str = "bezier",
     tolerance_mm: float = 0.02,
@@ -638,21 +680,8 @@ def anamorphosis(
         else is drawn first, see `draw`.
     camera : Camera, optional
         How a scene is drawn.
-    mirror : {"cylinder", "cone", "none"}
-        A cylinder that stands on the paper, a cone that is looked at from above its tip, or no mirror: then the paper
-        is looked at from a low eye, aslant.
-    radius_mm : float
-        Of the foot of the mirror.
-    height_mm : float, optional
-        Of the mirror: where None a cylinder is as high as it has to be, which the drawing says, and a cone is twice as
-        high as its radius.
-    viewer : (3,) sequence of float, optional
-        The eye, in mm from the middle of the mirror's foot: to the right, away from the lower edge of the page, and
-        above the paper; where None (0, -16, 14) radii for a cylinder, (0, 0, 16) for a cone, and (0, -400, 150) mm
-        without a mirror.
-    seen_mm : float, optional
-        How long the longer side of the picture seems to be, where it seems to stand in the axis of the mirror; where
-        None as suits the mirror.
+    mirror : AnamorphicMirror or {"cylinder", "cone", "none"}
+        What the drawing is laid around, and from where one looks into it; or what kind of mirror that is.
     page : Page or str, optional
         Or its name or size; where None a page as large as the drawing, with a margin.
     curves : {"bezier", "polyline", "arcs"}
@@ -676,9 +705,8 @@ def anamorphosis(
     ------
     InputError
         See `draw`.
-        For an eye that cannot look into the mirror, a cone not higher than its radius, and a picture without strokes
-        and polygons; for a picture larger than the mirror shows, with how large it may be; for a drawing that does not
-        fit the page.
+        For a picture without strokes and polygons, or larger than the mirror shows, with how large it may be; for a
+        drawing that does not fit the page.
 
     Warns
     -----
@@ -699,22 +727,15 @@ def anamorphosis(
     --------
     >>> import vectorplot as vp
     >>> from vectorplot import geometry
-    >>> laid = vp.anamorphosis(geometry.box((2, 2, 2)), radius_mm=20)
+    >>> laid = vp.anamorphosis(geometry.box((2, 2, 2)), mirror=vp.AnamorphicMirror(radius_mm=20))
     >>> [layer.name for layer in laid.layers if len(layer.strokes[0])]
     ['visible', 'contour', 'mirror', 'viewer', 'notes']
     """
     check_options(locals())
-    how = {"curves": curves, "budget": budget, "jobs": jobs, "explain": explain}
-    drawn = picture_of(picture, camera, **how)
-    setting: dict[str, Any] = {
-        "mirror": mirror,
-        "radius_mm": radius_mm,
-        "height_mm": height_mm,
-        "viewer": viewer,
-        "seen_mm": seen_mm,
-    }
+    drawn = picture_of(picture, camera, curves=curves, budget=budget, jobs=jobs, explain=explain)
+    glass = AnamorphicMirror(mirror) if isinstance(mirror, str) else mirror
     work: dict[str, Any] = {"jobs": jobs, "progress": progress, "explain": explain}
-    return anamorphosis_of(drawn, on_page, **setting, page=page, curves=curves, tolerance_mm=tolerance_mm, **work)
+    return anamorphosis_of(drawn, on_page, glass, page=page, curves=curves, tolerance_mm=tolerance_mm, **work)
 
 
 @stoppable
@@ -722,11 +743,7 @@ def anamorphosis_view(
     picture: object,
     camera: Camera | None = None,
     *,
-    mirror: str = "cylinder",
-    radius_mm: float = 25.0,
-    height_mm: float | None = None,
-    viewer: Sequence[float] | None = None,
-    seen_mm: float | None = None,
+    mirror: AnamorphicMirror | str = "cylinder",
     page: Page | str | None = None,
     curves: str = "bezier",
     tolerance_mm: float = 0.02,
@@ -743,9 +760,7 @@ def anamorphosis_view(
         See `anamorphosis`.
     camera : Camera, optional
         See `anamorphosis`.
-    mirror, radius_mm, height_mm, viewer, seen_mm : see anamorphosis
-        Where they are not told they are what they are there.
-    page, curves, tolerance_mm, budget, jobs, progress, explain : see anamorphosis
+    mirror, page, curves, tolerance_mm, budget, jobs, progress, explain : see anamorphosis
         The picture in the mirror has the size that it seems to have there.
 
     Returns
@@ -768,22 +783,15 @@ def anamorphosis_view(
     --------
     >>> import vectorplot as vp
     >>> from vectorplot import geometry
-    >>> seen = vp.anamorphosis_view(geometry.box((2, 2, 2)), radius_mm=20)
+    >>> seen = vp.anamorphosis_view(geometry.box((2, 2, 2)), mirror=vp.AnamorphicMirror(radius_mm=20))
     >>> [layer.name for layer in seen.layers if len(layer.strokes[0])]
     ['paper visible', 'paper contour', 'visible', 'contour', 'mirror']
     """
     check_options(locals())
-    how = {"curves": curves, "budget": budget, "jobs": jobs, "explain": explain}
-    drawn = picture_of(picture, camera, **how)
-    setting: dict[str, Any] = {
-        "mirror": mirror,
-        "radius_mm": radius_mm,
-        "height_mm": height_mm,
-        "viewer": viewer,
-        "seen_mm": seen_mm,
-    }
+    drawn = picture_of(picture, camera, curves=curves, budget=budget, jobs=jobs, explain=explain)
+    glass = AnamorphicMirror(mirror) if isinstance(mirror, str) else mirror
     work: dict[str, Any] = {"jobs": jobs, "progress": progress, "explain": explain}
-    return anamorphosis_of(drawn, as_seen, **setting, page=page, curves=curves, tolerance_mm=tolerance_mm, **work)
+    return anamorphosis_of(drawn, as_seen, glass, page=page, curves=curves, tolerance_mm=tolerance_mm, **work)
 
 
 Progress = Callable[[str, float], None]
@@ -814,12 +822,8 @@ Laid = Callable[[Drawing, Setting, Page | str | None, float, bool], Drawing]
 def anamorphosis_of(
     drawn: Drawn,
     laid: Laid,
+    mirror: AnamorphicMirror,
     *,
-    mirror: str,
-    radius_mm: float,
-    height_mm: float | None,
-    viewer: Sequence[float] | None,
-    seen_mm: float | None,
     page: Page | str | None,
     curves: str,
     tolerance_mm: float,
@@ -828,26 +832,20 @@ def anamorphosis_of(
     explain: Callable[[StageReport], None] | None,
 ) -> Drawing:
     """What is laid on a page of the anamorphosis of what is drawn for it; all else as in `anamorphosis`."""
-    glass = _mirror(mirror, radius_mm, height_mm)
-    eye = _eye(viewer, glass)
-    stages = [Stage("picture", "what is to be seen"), Stage("paper", f"mirror: {mirror}")]
+    stages = [Stage("picture", "what is to be seen"), Stage("paper", f"mirror: {mirror.kind}")]
     pipeline = Pipeline(stages, explain, progress, threads_of(jobs))
     done = pipeline.fraction("picture")
     inner = None if progress is None else lambda _, part: done(part)
-    shown, setting = pipeline.run("picture", _shown, drawn, glass, eye, seen_mm, tolerance_mm, inner)
+    shown, setting = pipeline.run("picture", _shown, drawn, mirror, tolerance_mm, inner)
     how = (page, (1.0 - OF_DRAWING) * tolerance_mm, curves != "polyline")
     return pipeline.run("paper", laid, shown, setting, *how)
 
 
 def _shown(
-    drawn: Drawn,
-    mirror: CurvedMirror,
-    eye: Floats,
-    seen_mm: float | None,
-    tolerance_mm: float,
-    progress: Progress | None,
+    drawn: Drawn, looking: AnamorphicMirror, tolerance_mm: float, progress: Progress | None
 ) -> tuple[Drawing, Setting]:
     """The drawing, as fine as the paper enlarges it, and how it is looked at."""
+    mirror, eye, seen_mm = looking.curved, looking.eye, looking.seen_mm
     side = seen_mm or 2.0 * (OF_DISTANCE * float(norm(eye)) if mirror.kind == "none" else mirror.radius)
     enlarged = ENLARGED
     while True:
