@@ -138,6 +138,11 @@ def normalize(vectors: ArrayLike, *, magnitude: ArrayLike = 0.0) -> Floats:
     return np.asarray(v / norm(v)[..., None])
 
 
+def snapped(values: Floats, noise: ArrayLike) -> Floats:
+    """(...) values, 0 in place of those no larger than what rounding makes; NaN stays."""
+    return np.where(np.abs(values) <= noise, 0.0, values)
+
+
 def point_on_line(p: ArrayLike, q: ArrayLike, parameter: ArrayLike) -> Floats:
     """The points of lines PQ at some parameters: 0 gives P, 1 gives Q, any number is allowed.
 

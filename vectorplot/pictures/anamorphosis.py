@@ -325,7 +325,7 @@ class Setting:
         x, y = (self.slopes(points, np.broadcast_to(axis, points.shape)) for axis in np.eye(2))
         # The larger singular value of the matrix with these columns.
         half = 0.5 * (dot(x, x) + dot(y, y))
-        area = x[:, 0] * y[:, 1] - x[:, 1] * y[:, 0]
+        area = cross(x, y)
         squares = half + np.sqrt(np.maximum(half * half - area * area, 0.0))
         return float(np.sqrt(squares.max(initial=0.0)))
 
