@@ -231,9 +231,9 @@ def curves_of_parametrised(
     seen = replace(contour, doubts=tuple(text for text in contour.doubts if text != EVERYWHERE))
     turn = through_pinch_points(contour_condition(view, sheet.whole.surface))
     found: list[Found] = [(LineKind.CONTOUR, ConditionCurves(sheet.whole, number, turn), seen)]
-    found += _edges(view, sheet, number, tracing)
+    found += _edges(sheet, number, tracing)
     if lines is not None:
-        found.append((LineKind.PARAMETER, _lines_of_parameters(view, sheet, number), lines))
+        found.append((LineKind.PARAMETER, _lines_of_parameters(sheet, number), lines))
     found += _asked_for(scene, view, item, sheet, number, wanted, tracing)
     doubts = tuple(text for _, _, curves in found for text in curves.doubts)
     if any(kind == LineKind.CREASE and (len(curves) or len(curves.isolated)) for kind, _, curves in found):
@@ -242,15 +242,15 @@ def curves_of_parametrised(
     return [as_curves(curves, kind, sheet.item, family) for kind, family, curves in found if len(curves)], doubts
 
 
-def _lines_of_parameters(view: View, sheet: ParametricSheet, number: int) -> ParameterCurves:
+def _lines_of_parameters(sheet: ParametricSheet, number: int) -> ParameterCurves:
     pieces = line_pieces(sheet.surface)
     return ParameterCurves(sheet, number, degrees_along=pieces.degrees, weighted=pieces.weighted)
 
 
-def _edges(view: View, sheet: ParametricSheet, number: int, tracing: Tracing) -> list[Found]:
+def _edges(sheet: ParametricSheet, number: int, tracing: Tracing) -> list[Found]:
     """Borders, the rims of holes among them, and cuspidal edges."""
     surface, straight = sheet.surface, ParameterCurves(sheet, number)
-    lines = _lines_of_parameters(view, sheet, number)
+    lines = _lines_of_parameters(sheet, number)
     result: list[Found] = [(LineKind.BOUNDARY, lines, domain_borders(surface, tracing))]
     # What has no hole in the tessellation has none on the coarser grid of its curves.
     if sheet.trims is not None:
