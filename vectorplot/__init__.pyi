@@ -39,6 +39,7 @@ from .scene.annotations import (
     thread,
     threaded_hole,
 )
+from .scene.colour_scales import Colouring, ScaleBar
 from .scene.exploded import exploded
 from .scene.hatching import Hatching, Stippling
 from .scene.item import Item, Pattern
@@ -47,7 +48,6 @@ from .scene.light import Light
 from .scene.material import Material
 from .scene.page import Page
 from .scene.plots import graph, surface, tube
-from .scene.scales import Colouring, ScaleBar
 from .scene.scene import Scene
 from .scene.subdivided import subdivided
 from .scene.surface_lines import Section, SurfaceLines

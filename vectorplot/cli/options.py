@@ -441,7 +441,7 @@ class LineOptions(OptionGroup):
 
     def with_chart(self, scene: Scene) -> Scene:
         """A scene with the colours and the box that the user asked for. Bad usage for a map of no colours."""
-        from vectorplot.scene.scales import BoxAxes, Colouring, ScaleBar
+        from vectorplot.scene.colour_scales import BoxAxes, Colouring, ScaleBar
 
         said = self._of_colours()
         own = scene.colouring

@@ -17,8 +17,8 @@ from vectorplot.features.curve_tracing import (
     poles,
     samples,
 )
-from vectorplot.features.cut_curves import cut_as
 from vectorplot.features.holes import clipped, wrapped
+from vectorplot.features.trimmed_curves import cut_as
 from vectorplot.features.zero_curves import check_grid
 from vectorplot.geometry.chord_refinement import bisected
 from vectorplot.geometry.polylines import take
