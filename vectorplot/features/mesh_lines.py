@@ -30,7 +30,16 @@ from vectorplot.geometry.polylines import (
     joined,
     with_points_kept,
 )
-from vectorplot.geometry.vectors import all_components, any_component, component_sum, cross, norm, normalize, snapped
+from vectorplot.geometry.vectors import (
+    all_components,
+    any_component,
+    component_sum,
+    cross,
+    norm,
+    normalize,
+    snapped,
+    summed_by,
+)
 from vectorplot.geometry.winding import edge_uses, face_barycentres
 from vectorplot.tolerances import LEAST_DIVISOR, LEAST_VALUE, NO_NORMAL, ROUNDING, ROUNDING_OF_TERMS, ZERO_OF_EXTENT
 from vectorplot.words import LineKind
@@ -369,7 +378,7 @@ def vertex_normals(mesh: Mesh) -> Floats:
     out, back = mesh.vertices[corner[following]] - here, mesh.vertices[corner[before]] - here
     angle = arctan2(norm(np.cross(out, back)), component_sum(out * back))
     weighted = mesh.face_normals[mesh.corner_face] * angle[:, None]
-    total = np.stack([np.bincount(corner, weighted[:, k], len(mesh.vertices)) for k in range(3)], axis=1)
+    total = summed_by(corner, weighted, len(mesh.vertices))
     length = np.linalg.norm(total, axis=1, keepdims=True)
     return np.asarray(total / np.where(length > NO_NORMAL, length, np.inf))
 
