@@ -712,6 +712,8 @@ def curves_of_lines(
     return ImplicitCurves(lines.points[kept], offsets, closed, np.full(len(closed), level), none, none, doubts)
 
 
+# Contours, isophotes, intersections and plane sections.
+
 DEFAULT = ImplicitTracing()
 
 

@@ -1,4 +1,4 @@
-"""Painter's orders that the shape gives, of graphs, solids of revolution and solids; how two convex outlines lie."""
+"""Painter's orders that shapes give: of graphs, solids of revolution, solids, and of whole objects and their groups."""
 
 from __future__ import annotations
 
@@ -464,6 +464,9 @@ def sphere_order(view: View, faces: ImageFaces, bodies: Bodies) -> Ints | None:
         if ((codes != APART) & (codes != told)).any():
             return None
     return np.argsort(-power, kind="stable")
+
+
+# The order of whole objects and of groups of objects, by priorities and cyclic overlaps.
 
 
 @dataclass(frozen=True, eq=False)
