@@ -37,9 +37,9 @@ def heights_on_mirror(drawing: vp.Drawing, radius: float, eye: np.ndarray, point
 
 def main(folder: Path) -> None:
     scene = ring()
-    laid = vp.anamorphosis(scene, radius_mm=25)
+    laid = vp.anamorphosis(scene, mirror="cylinder")
     vp.save(laid, folder / "anamorphoses_cylinder.svg")
-    vp.save(vp.anamorphosis_view(scene, radius_mm=25), folder / "anamorphoses_cylinder_seen.svg")
+    vp.save(vp.anamorphosis_view(scene, mirror="cylinder"), folder / "anamorphoses_cylinder_seen.svg")
     vp.save(vp.anamorphosis(scene, mirror="cone"), folder / "anamorphoses_cone.svg")
     vp.save(vp.anamorphosis_view(scene, mirror="cone"), folder / "anamorphoses_cone_seen.svg")
 

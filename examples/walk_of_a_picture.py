@@ -18,7 +18,7 @@ BOX = np.array([38.0, 16.0])
 
 SHARED = ("read", "io/read_file.py", "Scene"), ("prepare", "pictures/prepared_scene.py", "Scene, Camera")
 DRAW = """lines, pictures/lines.py, Lines; hidden lines, visibility/, Visibility; place, drawing/strokes.py, Paths;
-          layers and pens, drawing/pen_layers.py, Drawing"""
+          layers and pens, drawing/layers.py, Drawing"""
 PAINT = """polygons, shading/facet_resolution.py, View; order, visibility/painter/, Painted;
            shadows and glass, effects/, Decals; colours, pictures/fills.py, Drawing"""
 RENDER = """triangles, shading/screen.py, ScreenTriangles; depth buffer, shading/depth_buffers.py, DepthBuffer;

@@ -14,10 +14,9 @@ import vectorplot as vp
 from vectorplot.cli.commands.anamorphosis import anamorphosis
 from vectorplot.curves.bezier import bezier_points
 from vectorplot.drawing.stroke_curves import one_mark
-from vectorplot.effects.curved_mirrors import CurvedMirror
 from vectorplot.geometry import box
 from vectorplot.geometry.vectors import dot, norm
-from vectorplot.pictures.anamorphosis import Setting, _eye, _fitted, _mirror
+from vectorplot.pictures.anamorphosis import CurvedMirror, Setting, _fitted
 from vectorplot.surfaces import Torus
 
 TOLERANCE = 0.02
@@ -31,12 +30,12 @@ SEEN = [
 SEEN[-1][-1] = SEEN[-1][0]
 """A picture of straight lines, one with corners, and a circle in very short chords."""
 
-SETTINGS = {
-    "cylinder": {"mirror": "cylinder"},
-    "low cylinder": {"mirror": "cylinder", "radius_mm": 40.0, "height_mm": 60.0, "viewer": (120.0, -500.0, 300.0)},
-    "cone": {"mirror": "cone"},
-    "cone from the side": {"mirror": "cone", "radius_mm": 30.0, "height_mm": 55.0, "viewer": (20.0, -30.0, 300.0)},
-    "none": {"mirror": "none"},
+MIRRORS = {
+    "cylinder": vp.AnamorphicMirror("cylinder"),
+    "low cylinder": vp.AnamorphicMirror(radius_mm=40.0, height_mm=60.0, viewer=(120.0, -500.0, 300.0)),
+    "cone": vp.AnamorphicMirror("cone"),
+    "cone from the side": vp.AnamorphicMirror("cone", radius_mm=30.0, height_mm=55.0, viewer=(20.0, -30.0, 300.0)),
+    "none": vp.AnamorphicMirror("none"),
 }
 
 
@@ -47,13 +46,11 @@ def picture():
 
 @cache
 def laid(name):
-    return vp.anamorphosis(picture(), **SETTINGS[name], tolerance_mm=TOLERANCE)
+    return vp.anamorphosis(picture(), mirror=MIRRORS[name], tolerance_mm=TOLERANCE)
 
 
 def setting_of(name) -> Setting:
-    told = {"radius_mm": 25.0, "height_mm": None, "viewer": None, **SETTINGS[name]}
-    mirror = _mirror(told["mirror"], told["radius_mm"], told["height_mm"])
-    return _fitted(mirror, _eye(told["viewer"], mirror), np.concatenate(SEEN), None)
+    return _fitted(MIRRORS[name].curved, MIRRORS[name].eye, np.concatenate(SEEN), None)
 
 
 def points_on(drawing, name, count):
@@ -129,7 +126,7 @@ def seen_in(setting, places):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", [name for name in SETTINGS if name != "none"])
+@pytest.mark.parametrize("name", [name for name in MIRRORS if name != "none"])
 def test_light_that_takes_the_shortest_way_shows_the_picture(name):
     setting = setting_of(name)
     paper = points_on(laid(name), "lines", 5_000)
@@ -142,7 +139,7 @@ def test_light_that_takes_the_shortest_way_shows_the_picture(name):
     assert picture_mm.max() < TOLERANCE
 
 
-@pytest.mark.parametrize("name", SETTINGS)
+@pytest.mark.parametrize("name", MIRRORS)
 @pytest.mark.slow
 def test_nothing_of_the_picture_is_missing_on_the_paper(name):
     setting = setting_of(name)
@@ -195,7 +192,7 @@ def test_pens_layers_kinds_and_items_stay():
 
 @pytest.mark.slow
 def test_the_marks_say_where_mirror_and_eye_are():
-    found = vp.anamorphosis(picture(), radius_mm=30.0)
+    found = vp.anamorphosis(picture(), mirror=vp.AnamorphicMirror(radius_mm=30.0))
     mirror, viewer, _ = found.layers[-3:]
     middle = found.page_from_world[:2, 3]
     (mark,) = mirror.marks
@@ -205,7 +202,7 @@ def test_the_marks_say_where_mirror_and_eye_are():
     assert abs(arrow[:2, 0]).max() < 1e-9 and (arrow[:, 1] < -30.0).all() and arrow[1, 1] < arrow[0, 1]
     above = vp.anamorphosis(picture(), mirror="cone")
     assert len(above.layers[-3].strokes[0]) == 3 and not len(above.layers[-2].strokes[0])
-    beside = vp.anamorphosis(picture(), mirror="none", viewer=(0.0, -30.0, 400.0))
+    beside = vp.anamorphosis(picture(), mirror=vp.AnamorphicMirror("none", viewer=(0.0, -30.0, 400.0)))
     cross = beside.layers[-2].strokes[0].points.mean(axis=0) - beside.page_from_world[:2, 3]
     assert cross == pytest.approx([0.0, -30.0])
 
@@ -227,7 +224,8 @@ def test_what_is_seen_in_the_tip_of_a_cone_is_left_out():
 @pytest.mark.slow
 def test_the_drawing_grows_with_the_mirror():
     one, large = (
-        vp.anamorphosis(picture(), radius_mm=radius, tolerance_mm=radius / 1024.0) for radius in (25.0, 25.0 * 1024.0)
+        vp.anamorphosis(picture(), mirror=vp.AnamorphicMirror(radius_mm=radius), tolerance_mm=radius / 1024.0)
+        for radius in (25.0, 25.0 * 1024.0)
     )
     a, b = (found.layers[0].strokes[0] for found in (one, large))
     assert a.offsets.tolist() == b.offsets.tolist()
@@ -247,38 +245,51 @@ def test_a_drawing_anywhere_on_its_page_is_seen_alike():
 @pytest.mark.parametrize(
     ("told", "cause"),
     [
-        ({"mirror": "ball"}, "mirror"),
+        ({"kind": "ball"}, "mirror"),
         ({"radius_mm": 0.0}, "expected a positive radius of at most 1000000 mm, got 0"),
         ({"radius_mm": 1e9}, "expected a positive radius of at most 1000000 mm, got 1e+09"),
         ({"viewer": (1e308, -1e308, 1e308)}, "expected three finite numbers of mm, at most 1000000, got (1e+308"),
-        ({"mirror": "cone", "height_mm": 20.0}, "is too flat to show the paper: make it higher than 25 mm"),
+        ({"kind": "cone", "height_mm": 20.0}, "is too flat to show the paper: make it higher than 25 mm"),
         ({"viewer": (0.0, 10.0, 300.0)}, "expected an eye beside the cylinder, more than 25 mm off its axis"),
         ({"viewer": (0.0, -400.0, -1.0)}, "expected an eye above the paper"),
-        ({"mirror": "cone", "viewer": (0.0, 0.0, 40.0)}, "an eye above the tip of the cone, higher than 50 mm"),
+        ({"kind": "cone", "viewer": (0.0, 0.0, 40.0)}, "an eye above the tip of the cone, higher than 50 mm"),
         ({"viewer": (0.0, -400.0)}, "expected three finite numbers"),
         ({"viewer": "above"}, "expected three finite numbers"),
         ({"radius_mm": "large"}, "radius_mm: expected a number"),
         ({"seen_mm": 60.0}, "does not fit in the cylinder, its longer side may have 49.99"),
-        ({"seen_mm": 60.0, "mirror": "cone"}, "does not fit in the cone, its longer side may have 40"),
-        ({"page": "80x80"}, "the page has 60 x 60 mm for it"),
-        ({"page": "scale 1:2"}, "in true size, at no scale"),
-        ({"mirror": "none", "seen_mm": 1e6}, "does not fit seen from there"),
+        ({"seen_mm": 60.0, "kind": "cone"}, "does not fit in the cone, its longer side may have 40"),
+        ({"kind": "none", "seen_mm": 1e6}, "does not fit seen from there"),
         ({"viewer": (0.0, -400.0, 1e-9)}, "nothing can be seen in the cylinder: look from higher up"),
     ],
 )
 @pytest.mark.slow
-def test_what_cannot_be_is_said_in_one_line(told, cause):
+def test_a_mirror_that_cannot_be_is_said_in_one_line(told, cause):
     with pytest.raises(vp.InputError) as caught:
-        vp.anamorphosis(picture(), **told)
+        vp.anamorphosis(picture(), mirror=vp.AnamorphicMirror(**told))
     assert cause in caught.value.cause and "\n" not in caught.value.cause
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("told", "cause"),
+    [
+        ({"page": "80x80"}, "the page has 60 x 60 mm for it"),
+        ({"page": "scale 1:2"}, "in true size, at no scale"),
+        ({"mirror": "ball"}, "mirror 'ball': expected"),
+        ({"mirror": 25.0}, "mirror: expected an AnamorphicMirror or a text such as 'cone', got 25.0"),
+    ],
+)
+def test_a_page_or_a_mirror_that_cannot_be_is_said_in_one_line(told, cause):
+    with pytest.raises(vp.InputError, match=cause):
+        vp.anamorphosis(picture(), **told)
 
 
 @pytest.mark.slow
 def test_the_largest_picture_that_is_told_fits():
     with pytest.raises(vp.InputError) as caught:
-        vp.anamorphosis(picture(), seen_mm=100.0)
+        vp.anamorphosis(picture(), mirror=vp.AnamorphicMirror(seen_mm=100.0))
     largest = float(caught.value.cause.split()[-2])
-    assert vp.anamorphosis(picture(), seen_mm=0.999 * largest).width_mm > 100.0
+    assert vp.anamorphosis(picture(), mirror=vp.AnamorphicMirror(seen_mm=0.999 * largest)).width_mm > 100.0
 
 
 @pytest.mark.slow
@@ -351,12 +362,12 @@ def test_the_command_writes_drawing_and_preview(tmp_path):
     [
         {"viewer": (0.0, -25.01, 60.0)},
         {"viewer": (0.0, -100.0, 30.0), "height_mm": 200.0},
-        {"mirror": "cone", "viewer": (20.0, 0.0, 52.0)},
+        {"kind": "cone", "viewer": (20.0, 0.0, 52.0)},
     ],
 )
 def test_what_lies_beside_the_viewer_makes_no_endless_page(told):
     """The picture is still to be seen on it, and strokes that lead behind the viewer as far as they are ahead."""
-    seen = vp.anamorphosis_view(picture(), **told)
+    seen = vp.anamorphosis_view(picture(), mirror=vp.AnamorphicMirror(**told))
     shown = next(layer for layer in seen.layers if layer.name == "lines")
     (mark,) = shown.strokes
     assert max(seen.width_mm, seen.height_mm) < 20.0 * np.ptp(mark.points, axis=0).max()
@@ -368,9 +379,8 @@ def test_what_lies_beside_the_viewer_makes_no_endless_page(told):
 def test_the_paper_is_seen_as_a_pinhole_shows_it():
     """Without the mirror before it: corners of the paper's strokes lie on those that are seen."""
     viewer = np.array([0.0, -100.0, 30.0])
-    told = {"viewer": tuple(viewer), "height_mm": 200.0, "curves": "polyline"}
-    mirror = _mirror("cylinder", 25.0, 200.0)
-    setting = _fitted(mirror, viewer, np.concatenate(SEEN), None)
+    told = {"mirror": vp.AnamorphicMirror(viewer=tuple(viewer), height_mm=200.0), "curves": "polyline"}
+    setting = _fitted(told["mirror"].curved, viewer, np.concatenate(SEEN), None)
     laid, seen = vp.anamorphosis(picture(), **told), vp.anamorphosis_view(picture(), **told)
     ways = np.insert(laid.layers[0].strokes[0].points - laid.page_from_world[:2, 3], 2, 0.0, axis=1) - viewer
     sight = setting.centre - viewer

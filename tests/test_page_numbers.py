@@ -14,7 +14,7 @@ from vectorplot.curves.derivatives import FENCE
 from vectorplot.drawing.drawing import Pen
 from vectorplot.drawing.fill_visibility import MOST_CLEAR, MOST_LAYERS
 from vectorplot.drawing.fills import SEAM_MM, FillKind
-from vectorplot.drawing.layers import PENS
+from vectorplot.drawing.pens import PENS
 from vectorplot.effects import glass, soft_shadows
 from vectorplot.effects.shadow_casters import EACH, SAMPLE
 from vectorplot.effects.shadows import MANY_CELLS, MOST_CELLS, MOST_LIGHTS
@@ -22,8 +22,8 @@ from vectorplot.features import geodesic_curves, parameter_curves, surface_integ
 from vectorplot.features.curve_tracing import Tracing
 from vectorplot.features.hole_rims import FINER
 from vectorplot.features.intersection_tracing import LARGEST_LOOP
-from vectorplot.features.pinch_points import COLUMNS, ROWS
-from vectorplot.geometry.budget import USUAL
+from vectorplot.features.surface_singularities import COLUMNS, ROWS
+from vectorplot.geometry.budget import PAIRS_OF_EACH, USUAL
 from vectorplot.geometry.projections import FARTHEST_OFF_AXIS_DEG, ULPS
 from vectorplot.io import molecules
 from vectorplot.pictures import pixels, plan
@@ -60,7 +60,6 @@ from vectorplot.visibility.painter.face_splitting import PIECES_OF_EACH, PIECES_
 from vectorplot.visibility.painter.height_fields import MOST_BORDER, SHARE_LEFT_OUT
 from vectorplot.visibility.painter.painters_order import OF_EACH, pairs_allowed
 from vectorplot.visibility.polyhedra.occluders import MAX_SOLID_FACES
-from vectorplot.visibility.smooth import box_strips
 from vectorplot.words import LineKind
 
 
@@ -87,7 +86,7 @@ NUMBERS = {
         f"around the curves of one kind | {USUAL.cells:,} |",
         f"is cut into around them | {USUAL.triangles:,} |",
         f"of more than {parameter_curves.LINES_A_BUDGET} parameter lines, each a sixteenth of it | {USUAL.points:,} |",
-        f"or {USUAL.pairs // box_strips.EACH} for each chord or sight line | {USUAL.pairs:,} |",
+        f"or {USUAL.pairs // PAIRS_OF_EACH} for each chord or sight line | {USUAL.pairs:,} |",
         f"is painted or rendered by | {USUAL.facets:,} |",
         f"to find their order; or {OF_EACH} for each face | {pairs_allowed(USUAL.pairs, 0):,} |",
         f"or {PIECES_OF_EACH} for each face | {USUAL.pieces:,} |",

@@ -10,7 +10,7 @@ from .features.zero_curves import zero_manifold_of_f_uv
 from .geometry.camera import Camera, Panorama
 from .geometry.mesh import Mesh
 from .geometry.polylines import Strokes
-from .pictures.anamorphosis import anamorphosis, anamorphosis_view
+from .pictures.anamorphosis import AnamorphicMirror, anamorphosis, anamorphosis_view
 from .pictures.development import development
 from .pictures.draw import draw
 from .pictures.film import Film, animate
@@ -39,6 +39,7 @@ from .scene.annotations import (
     thread,
     threaded_hole,
 )
+from .scene.colour_scales import Colouring, ScaleBar
 from .scene.exploded import exploded
 from .scene.hatching import Hatching, Stippling
 from .scene.item import Item, Pattern
@@ -47,7 +48,6 @@ from .scene.light import Light
 from .scene.material import Material
 from .scene.page import Page
 from .scene.plots import graph, surface, tube
-from .scene.scales import Colouring, ScaleBar
 from .scene.scene import Scene
 from .scene.subdivided import subdivided
 from .scene.surface_lines import Section, SurfaceLines
@@ -60,6 +60,7 @@ __version__: str
 
 __all__ = [
     "Along",
+    "AnamorphicMirror",
     "Animation",
     "AtVertex",
     "Camera",

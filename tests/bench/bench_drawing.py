@@ -10,8 +10,8 @@ import pytest
 
 from vectorplot.drawing.drawing import Paths
 from vectorplot.drawing.duplicates import without_duplicates
+from vectorplot.drawing.finishing import without_collinear_points
 from vectorplot.drawing.pen_order import pen_ordered, travel_mm
-from vectorplot.drawing.simplify import without_collinear_points
 from vectorplot.drawing.strokes import joined, split_long
 
 pytestmark = pytest.mark.bench

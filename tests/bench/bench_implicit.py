@@ -3,9 +3,8 @@
 import numpy as np
 import pytest
 
-from vectorplot.features.implicit_curves import implicit_contour, implicit_isophotes
+from vectorplot.features.implicit_curves import ImplicitTracing, implicit_contour, implicit_isophotes
 from vectorplot.features.implicit_meshes import implicit_mesh
-from vectorplot.features.implicit_tracing import ImplicitTracing
 from vectorplot.features.mesh_lines import mesh_plane_sections
 from vectorplot.features.polygonization import polygonized, settled_mesh
 from vectorplot.speed.results import cpu_seconds

@@ -2,8 +2,7 @@ import numpy as np
 import pytest
 
 from vectorplot.errors import InputError
-from vectorplot.geometry.budget import USUAL, budget_of, in_one_line, line_each, unresolved
-from vectorplot.visibility.smooth.box_strips import Block, in_blocks
+from vectorplot.geometry.budget import USUAL, Block, budget_of, in_blocks, in_one_line, line_each, unresolved
 
 
 def test_a_budget_is_so_many_times_the_usual_one() -> None:

@@ -11,7 +11,7 @@ from vectorplot.curves.bezier import BezierPaths
 from vectorplot.drawing.drawing import Paths
 from vectorplot.drawing.strokes import chosen, concatenated
 from vectorplot.features.curve_tracing import SurfaceCurves
-from vectorplot.features.implicit_tracing import ImplicitCurves
+from vectorplot.features.implicit_curves import ImplicitCurves
 from vectorplot.features.intersection_tracing import DoubleCurves
 from vectorplot.features.mesh_lines import MeshCurves
 from vectorplot.features.zero_curves import ZeroManifold

@@ -9,8 +9,8 @@ import pytest
 
 import vectorplot as vp
 from vectorplot.effects.colour_maps import coloured
+from vectorplot.scene.colour_scales import Colouring
 from vectorplot.scene.item import SurfaceNormals
-from vectorplot.scene.scales import Colouring
 from vectorplot.shading.facet_resolution import FacetedScene
 from vectorplot.surfaces import Sphere
 

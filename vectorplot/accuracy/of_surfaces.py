@@ -21,7 +21,7 @@ from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.regions import polygons_of
-from vectorplot.geometry.vectors import dot
+from vectorplot.geometry.vectors import cross, dot
 from vectorplot.geometry.winding import edge_uses
 from vectorplot.pictures.paint import paint
 from vectorplot.scene.item import Item
@@ -142,7 +142,7 @@ def _winding(ring: Floats, places: Floats) -> Floats:
     """(m,) how often a ring (n,2) winds around places (m,2)."""
     way = ring[None] - places[:, None]
     after = np.roll(way, -1, axis=1)
-    turn = arctan2(way[..., 0] * after[..., 1] - way[..., 1] * after[..., 0], (way * after).sum(axis=2))
+    turn = arctan2(cross(way, after), (way * after).sum(axis=2))
     return np.asarray(np.rint(turn.sum(axis=1) / (2.0 * np.pi)))
 
 

@@ -18,6 +18,7 @@ from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.polylines import joined, take, with_points
 from vectorplot.geometry.projections import projection_of
+from vectorplot.geometry.vectors import cross
 from vectorplot.scene.extent import GRID, smooth_bounds
 from vectorplot.scene.page import Page
 from vectorplot.scene.placement import box_corners
@@ -144,7 +145,7 @@ def _clockwise(paths: Paths) -> Bools:
     # About their first points: the area is that of small numbers.
     here = paths.points - paths.points[begin][owner]
     there = paths.points[after] - paths.points[begin][owner]
-    twice = here[:, 0] * there[:, 1] - here[:, 1] * there[:, 0]
+    twice = cross(here, there)
     return np.asarray(np.bincount(owner, twice, len(begin)) < 0.0, dtype=np.bool_)
 
 

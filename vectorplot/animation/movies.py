@@ -22,6 +22,7 @@ from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.clipping import Polygons, Window, clip_lines_2d, clip_polygons_2d
 from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, Polylines, joined, segments, take
 from vectorplot.geometry.regions import corners_of, polygons_of, triangles_of, unions
+from vectorplot.geometry.vectors import cross
 from vectorplot.shading.palettes import PALETTE_LIMITS
 
 # Twelve-bit numbers in bytes, eight of them in a block of twelve.
@@ -274,7 +275,7 @@ def _areas(polygons: ColouredPolygons) -> Floats:
         return np.zeros(0)
     arm = polygons.points - np.repeat(polygons.points[first], sizes, axis=0)
     after = arm[ragged.following(polygons.offsets)]
-    area = np.abs(np.add.reduceat(arm[:, 0] * after[:, 1] - arm[:, 1] * after[:, 0], first)) / 2.0
+    area = np.abs(np.add.reduceat(cross(arm, after), first)) / 2.0
     return np.where(sizes == 2, np.inf, area)
 
 

@@ -15,6 +15,7 @@ from vectorplot.backends.page import Areas, Ink, PageMarks, PageStrokes, PageTex
 from vectorplot.drawing.drawing import Drawing
 from vectorplot.geometry import ragged
 from vectorplot.geometry.elementary import arctan2, tan
+from vectorplot.geometry.vectors import cross
 from vectorplot.scene.labels import TYPE_SIZE
 from vectorplot.tolerances import COINCIDENT_MM, LEAST_DIVISOR, WHOLE_TURN
 
@@ -121,8 +122,8 @@ def _bulges(control: Floats) -> Floats | None:
     ahead, back = control[1::3] - first, last - control[2::3]
     chord = last - first
     length = np.hypot(*chord.T)
-    half = arctan2(_crossed(ahead, chord), (ahead * chord).sum(axis=1))
-    straight = np.abs(_crossed(ahead, chord)) + np.abs(_crossed(back, chord)) <= 2.0 * ROUNDED_MM * length
+    half = arctan2(cross(ahead, chord), (ahead * chord).sum(axis=1))
+    straight = np.abs(cross(ahead, chord)) + np.abs(cross(back, chord)) <= 2.0 * ROUNDED_MM * length
     half = np.where(straight, 0.0, half)
     # Handles of an arc with this turn, as they would be.
     handle = length / (3.0 * np.maximum(np.cos(half / 2.0) ** 2, LEAST_DIVISOR))
@@ -136,11 +137,6 @@ def _bulges(control: Floats) -> Floats | None:
     return np.asarray(tan(half / 2.0))
 
 
-def _crossed(a: Floats, b: Floats) -> Floats:
-    """(n,) the areas between vectors (n,2)."""
-    return np.asarray(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
-
-
 def _are_straight(lines: PageStrokes) -> Bools:
     """(m,) the strokes whose points, or control points, lie within a micron of the way from the first to the last one,
     in order: as the meridians of what is seen from above."""
@@ -150,7 +146,7 @@ def _are_straight(lines: PageStrokes) -> Bools:
     points, way = lines.microns.astype(np.float64), (lines.microns[last] - lines.microns[first]).astype(np.float64)
     owner = ragged.owner(np.diff(lines.offsets))
     arm, along = points - points[first][owner], way[owner]
-    off = np.abs(arm[:, 0] * along[:, 1] - arm[:, 1] * along[:, 0])
+    off = np.abs(cross(arm, along))
     part = (arm * along).sum(axis=1)
     back = np.diff(part, prepend=part[:1]) < 0.0
     back[first] = False

@@ -674,7 +674,7 @@ def rounded(polygons: Polygons) -> tuple[Ints, Ints, Colours, Ints]:
     """Corners in microns, offsets and colours of the polygons, all turned counter-clockwise, and which ones remain."""
     microns = np.rint(polygons.points * 1000.0).astype(np.int64)
     sizes = np.diff(polygons.offsets)
-    new = any_component(microns != microns[_before(polygons.offsets)])
+    new = any_component(microns != microns[ragged.preceding(polygons.offsets)])
     kept_before = ragged.offsets(new)
     left = np.diff(kept_before[polygons.offsets])
     kept = np.flatnonzero((left >= 3) | ((left == 2) & (sizes == 2)))
@@ -690,14 +690,6 @@ def rounded(polygons: Polygons) -> tuple[Ints, Ints, Colours, Ints]:
     return microns[corner], ragged.offsets(count), polygons.colours[corner], kept
 
 
-def _before(offsets: Ints) -> Ints:
-    """(p,) where the corner stands that precedes each one in its polygon."""
-    before = np.arange(-1, int(offsets[-1]) - 1)
-    filled = offsets[1:] > offsets[:-1]
-    before[offsets[:-1][filled]] = offsets[1:][filled] - 1
-    return before
-
-
 def _areas(microns: Ints, offsets: Ints) -> Ints:
     """(m,) twice the signed areas of polygons, exactly."""
     sizes = np.diff(offsets)
@@ -705,7 +697,7 @@ def _areas(microns: Ints, offsets: Ints) -> Ints:
     area = np.zeros(len(sizes), dtype=np.int64)
     if len(filled):
         arm = microns - np.repeat(microns[offsets[filled]], sizes[filled], axis=0)
-        before = arm[_before(offsets)]
+        before = arm[ragged.preceding(offsets)]
         cross = before[:, 0] * arm[:, 1] - before[:, 1] * arm[:, 0]
         area[filled] = np.add.reduceat(cross, offsets[filled])
     return area

@@ -19,6 +19,7 @@ from vectorplot.drawing.texts import Texts
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
 from vectorplot.geometry.clipping import Polygons
+from vectorplot.geometry.vectors import cross
 from vectorplot.scene.page import MM_PER_INCH
 from vectorplot.shading.image import DPI, Bytes, averaged
 from vectorplot.shading.image import png_bytes as pixels_as_png
@@ -186,7 +187,7 @@ def _convex(points: Floats, offsets: Ints) -> Bools:
     """(m,) which polygons of no more than four corners are convex; of more they might run around twice."""
     side = points[ragged.following(offsets)] - points
     before = side[ragged.preceding(offsets)]
-    turn = before[:, 0] * side[:, 1] - before[:, 1] * side[:, 0]
+    turn = cross(before, side)
     least, most = (np.zeros(len(offsets) - 1) for _ in range(2))
     filled = np.flatnonzero(np.diff(offsets))
     least[filled], most[filled] = (f.reduceat(turn, offsets[filled]) for f in (np.minimum, np.maximum))

@@ -19,6 +19,7 @@ from vectorplot.geometry.boxes import PAIRS_AT_ONCE, overlapping_boxes, overlapp
 from vectorplot.geometry.budget import in_turn, slices
 from vectorplot.geometry.mesh import next_positions
 from vectorplot.geometry.regions import polygons_of
+from vectorplot.geometry.vectors import cross
 from vectorplot.tolerances import LEAST_DIVISOR
 
 if TYPE_CHECKING:
@@ -350,7 +351,7 @@ def _inwards(sides: _Sides, side: Ints, end: Ints, beside: Ints, closed: Bools) 
     lies along a border is seen at it."""
     way, along = (sides.microns[beside] - sides.microns[end]).astype(np.float64), sides.along(side)
     length = np.hypot(*along.T)
-    high = np.abs(along[:, 0] * way[:, 1] - along[:, 1] * way[:, 0]) / length
+    high = np.abs(cross(along, way)) / length
     part = np.minimum(REACH_MICRONS / np.maximum(high, LEAST_DIVISOR), INSIDE)
     onwards = np.where(end == side, -1.0, 1.0)[:, None] * along / length[:, None]
     ahead = (onwards * way).sum(axis=1)
@@ -528,7 +529,7 @@ def _common_parts(sides: _Sides, one: Ints, two: Ints) -> _Parts:
     # Where the other side, which runs back, begins and ends along this one, and how far beside it.
     arms = np.stack((sides.microns[two], sides.microns[sides.after[two]])) - start
     last, first = (arms * way).sum(axis=2)
-    beside = arms[..., 0] * way[:, 1] - arms[..., 1] * way[:, 0]
+    beside = cross(arms, way)
     span = np.stack((np.maximum(first, 0.0), np.minimum(last, length)))
     off = beside[1] + (span - first) * (beside[0] - beside[1]) / np.maximum(last - first, 1.0)
     kept = (span[1] - span[0] > APART_MICRONS) & (np.abs(off) <= APART_MICRONS).all(axis=0)
@@ -589,7 +590,7 @@ def _rooms(microns: Ints, offsets: Ints, owner: Ints) -> Floats:
         one = start[some] + (at[some] + step) % sizes[some]
         two = start[some] + (at[some] + step + 1) % sizes[some]
         way, arm = (microns[two] - microns[one]).astype(np.float64), (microns[some] - microns[one]).astype(np.float64)
-        far = np.abs(way[:, 0] * arm[:, 1] - way[:, 1] * arm[:, 0]) / np.hypot(way[:, 0], way[:, 1])
+        far = np.abs(cross(way, arm)) / np.hypot(way[:, 0], way[:, 1])
         room[some] = np.minimum(room[some], far)
     return room
 

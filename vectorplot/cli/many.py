@@ -8,15 +8,15 @@ import re
 from collections import Counter, deque
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from functools import partial
 from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Self
 
 import click
 
-from vectorplot.cli.option_values import exclusive
+from vectorplot.cli.option_values import OptionGroup, exclusive
 from vectorplot.cli.picture import WARNINGS, Progress, check_place, progress_bar
 from vectorplot.errors import InputError
 
@@ -47,17 +47,17 @@ WORKER_OPTIONS = (
 
 
 @dataclass(frozen=True)
-class WorkerOptions:
+class WorkerOptions(OptionGroup):
     """Who makes the pictures: so many processes, the workers of a cluster, or this process where both are None."""
 
     workers: int | None = None
     cluster: str | None = None
 
     @classmethod
-    def of(cls, options: Mapping[str, Any]) -> WorkerOptions:
+    def of(cls, options: Mapping[str, Any]) -> Self:
         """What a command with WORKER_OPTIONS was told. Bad usage for both options at once."""
         exclusive([("--workers", options["workers"]), ("--cluster", options["cluster"])])
-        return cls(**{field.name: options[field.name] for field in fields(cls)})
+        return super().of(options)
 
     @property
     def given(self) -> bool:
@@ -285,7 +285,6 @@ FPS = click.option("--fps", type=float, metavar="N", help="Frames a second.  [de
 
 def check_out(out: str | None, format_: str | None) -> None:
     """Bad usage, or an OSError, before the work, where frames cannot go where they are told to."""
-    from vectorplot.errors import InputError
     from vectorplot.save_frames import VIDEOS, kind_of
 
     if out is None:

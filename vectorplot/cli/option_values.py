@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, fields
 from functools import cache
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any, Self, TypeVar
 
 import click
 
@@ -288,7 +289,7 @@ def _rules(pens: str | None, dashes: str | None) -> None:
 
 def layers(text: str) -> str:
     """What shares a layer, with commas."""
-    from vectorplot.drawing.pen_layers import layer_words
+    from vectorplot.drawing.layers import layer_words
 
     return _said(text, layer_words)
 
@@ -347,3 +348,13 @@ def subdivision_scheme(text: str) -> tuple[str, float | None]:
     if found is not None and not 0.0 <= found <= 180.0:
         raise click.BadParameter(f"a crease angle of {found:g} degrees, expected 0 to 180")
     return word, found
+
+
+@dataclass(frozen=True)
+class OptionGroup:
+    """What the user said with some options of a command: a field for each of them, by its name."""
+
+    @classmethod
+    def of(cls, options: Mapping[str, Any]) -> Self:
+        """What a command that has these options was told."""
+        return cls(**{field.name: options[field.name] for field in fields(cls)})

@@ -10,7 +10,7 @@ from contextlib import suppress
 from dataclasses import dataclass, fields, replace
 from functools import partial, reduce, wraps
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Self
 
 import click
 
@@ -18,6 +18,7 @@ from vectorplot.cli.many import WORKER_OPTIONS, PictureVerb, WorkerOptions, is_f
 from vectorplot.cli.option_values import (
     AXES,
     KINDS,
+    OptionGroup,
     ascending,
     at_least,
     between,
@@ -54,6 +55,7 @@ from vectorplot.cli.picture import (
     make_picture,
     picture_contents,
     picture_made,
+    tiles_beside,
     warn_of_nothing,
 )
 from vectorplot.errors import InputError, InputWarning
@@ -159,7 +161,7 @@ def moved_apart(scene: Scene, asked: Sequence[Apart]) -> Scene:
 
 
 @dataclass(frozen=True)
-class CutOptions:
+class CutOptions(OptionGroup):
     """The cuts that the user asked for, how parts are moved apart, and whether those that touch are one."""
 
     cut: tuple[str, ...] = ()
@@ -169,11 +171,6 @@ class CutOptions:
     cut_angle: float = 45.0
     explode: tuple[Apart, ...] = ()
     union: bool = False
-
-    @classmethod
-    def of(cls, options: Mapping[str, Any]) -> CutOptions:
-        """What a command with CUT_OPTIONS was told."""
-        return cls(**{field.name: options[field.name] for field in fields(cls)})
 
     def of_scene(self, scene: Scene) -> Scene:
         """The scene with these cuts. Errors: InputError for unknown colours."""
@@ -205,17 +202,12 @@ MEASURE_OPTIONS = (
 
 
 @dataclass(frozen=True)
-class MeasureOptions:
+class MeasureOptions(OptionGroup):
     """How the user wants measures written; None where nothing was said."""
 
     decimals: int | None = None
     zeros: bool | None = None
     comma: bool | None = None
-
-    @classmethod
-    def of(cls, options: Mapping[str, Any]) -> MeasureOptions:
-        """What a command with MEASURE_OPTIONS was told."""
-        return cls(**{field.name: options[field.name] for field in fields(cls)})
 
     def of_scene(self, scene: Scene) -> Scene:
         """The scene with measures like that, as far as anything was said."""
@@ -389,7 +381,7 @@ LINE_OPTIONS = (
 
 
 @dataclass(frozen=True)
-class LineOptions:
+class LineOptions(OptionGroup):
     """The lines that the user asked for on all that is shown, beside what a scene file asks for."""
 
     sections: tuple[Planes, ...] = ()
@@ -413,11 +405,6 @@ class LineOptions:
     scale_bar: str | None = None
     box: bool = False
     materials: tuple[ItemMaterial, ...] = ()
-
-    @classmethod
-    def of(cls, options: Mapping[str, Any]) -> LineOptions:
-        """What a command with LINE_OPTIONS was told."""
-        return cls(**{field.name: options[field.name] for field in fields(cls)})
 
     def in_scene(self, scene: Scene) -> tuple[Scene, tuple[str, ...]]:
         """A scene with these lines, colours and box, and the kinds of the lines."""
@@ -454,8 +441,7 @@ class LineOptions:
 
     def with_chart(self, scene: Scene) -> Scene:
         """A scene with the colours and the box that the user asked for. Bad usage for a map of no colours."""
-        from vectorplot.errors import InputError
-        from vectorplot.scene.scales import BoxAxes, Colouring, ScaleBar
+        from vectorplot.scene.colour_scales import BoxAxes, Colouring, ScaleBar
 
         said = self._of_colours()
         own = scene.colouring
@@ -582,7 +568,7 @@ PAGE_OPTIONS = (
 
 
 @dataclass(frozen=True)
-class CameraOptions:
+class CameraOptions(OptionGroup):
     """What the user said about the camera; None and False: nothing."""
 
     eye: Point | None = None
@@ -597,9 +583,9 @@ class CameraOptions:
     view: str | None = None
 
     @classmethod
-    def of(cls, options: Mapping[str, Any]) -> CameraOptions:
+    def of(cls, options: Mapping[str, Any]) -> Self:
         """What a command with CAMERA_OPTIONS was told. Bad usage for options that contradict each other."""
-        found = cls(**{field.name: options[field.name] for field in fields(cls)})
+        found = super().of(options)
         found.check()
         return found
 
@@ -616,7 +602,7 @@ class CameraOptions:
 
 
 @dataclass(frozen=True)
-class PageOptions:
+class PageOptions(OptionGroup):
     """What the user said about the page; None and False: nothing. page: width and height in mm, or a word."""
 
     page: tuple[float, float] | str | None = None
@@ -624,13 +610,13 @@ class PageOptions:
     margin: float | None = None
 
     @classmethod
-    def of(cls, options: Mapping[str, Any]) -> PageOptions:
+    def of(cls, options: Mapping[str, Any]) -> Self:
         """What a command with PAGE_OPTIONS was told. Bad usage for a page of a size and a width."""
         from vectorplot.scene.page import FIT
 
         size = None if options["page"] == FIT else options["page"]
         exclusive([("--page SIZE", size), ("--width", options.get("width"))])
-        return cls(**{field.name: options[field.name] for field in fields(cls)})
+        return super().of(options)
 
 
 def camera_from(options: CameraOptions, scene: Scene) -> Camera:
@@ -638,7 +624,6 @@ def camera_from(options: CameraOptions, scene: Scene) -> Camera:
 
     An InputWarning says where its field of vision will not look natural.
     """
-    from vectorplot.errors import InputWarning
     from vectorplot.geometry.camera import Camera, lens_advice
     from vectorplot.scene.placement import default_camera
 
@@ -671,7 +656,6 @@ def camera_from(options: CameraOptions, scene: Scene) -> Camera:
 
 def page_from(options: PageOptions, scene: Scene) -> Page:
     """The page of the scene (or A4) with the user's size, margin and orientation; bad usage if nothing is left."""
-    from vectorplot.errors import InputError
     from vectorplot.scene.page import SCALE, Page
     from vectorplot.scene.placement import (
         FittedPage,
@@ -929,7 +913,6 @@ class Told:
             return None
         page, allowed = page_from(self.page, Scene(())), self.rest["tolerance_mm"]
         if self.rest.get("off_by") is not None:
-            from vectorplot.errors import InputError
             from vectorplot.pictures.promises import off_by_of
 
             # What is no error to keep, the verb itself says.
@@ -994,28 +977,6 @@ def _proof(params: Mapping[str, Any], told: Told, source: Source) -> Companion:
         return bytes(found)
 
     return Companion("certificate", path, content)
-
-
-def tiles_beside(params: Mapping[str, Any], format_: str) -> list[Companion]:
-    """The sheets that a large page is cut into, a file each. Errors: bad usage for a picture that goes to stdout."""
-    columns, rows = params["tiles"]
-    out = Path(params["out"])
-    if params["out"] == "-":
-        raise click.UsageError("--tiles writes files beside OUT: OUT must be a file")
-
-    def content(row: int, column: int, scene: Scene, made: Drawing | Image) -> bytes:
-        from vectorplot.drawing.drawing import Drawing
-        from vectorplot.drawing.tiles import tile
-        from vectorplot.save import write
-
-        assert isinstance(made, Drawing)
-        return write(tile(made, columns, rows, row, column, tolerance_mm=params["tolerance_mm"]), format_)
-
-    return [
-        Companion("tiles", str(out.with_stem(f"{out.stem}-{row + 1}-{column + 1}")), partial(content, row, column))
-        for row in range(rows)
-        for column in range(columns)
-    ]
 
 
 def with_options(*options: Option) -> Callable[[Command], Command]:

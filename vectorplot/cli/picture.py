@@ -245,6 +245,28 @@ class Companion:
     content: Callable[[Scene, Drawing | Image], bytes]
 
 
+def tiles_beside(params: Mapping[str, Any], format_: str) -> list[Companion]:
+    """The sheets that a large page is cut into, a file each. Errors: bad usage for a picture that goes to stdout."""
+    columns, rows = params["tiles"]
+    out = Path(params["out"])
+    if params["out"] == "-":
+        raise click.UsageError("--tiles writes files beside OUT: OUT must be a file")
+
+    def content(row: int, column: int, scene: Scene, made: Drawing | Image) -> bytes:
+        from vectorplot.drawing.drawing import Drawing
+        from vectorplot.drawing.tiles import tile
+        from vectorplot.save import write
+
+        assert isinstance(made, Drawing)
+        return write(tile(made, columns, rows, row, column, tolerance_mm=params["tolerance_mm"]), format_)
+
+    return [
+        Companion("tiles", str(out.with_stem(f"{out.stem}-{row + 1}-{column + 1}")), partial(content, row, column))
+        for row in range(rows)
+        for column in range(columns)
+    ]
+
+
 def make_picture(
     source: Source,
     out: str,

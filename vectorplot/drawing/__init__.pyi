@@ -3,8 +3,7 @@ from .fills import FillKind, Fills
 from .hatching import hatched_fills
 from .letters import lettered, typeset
 from .painted_fills import placement_of_faces
-from .pen_order import travel_mm
-from .plotting import PlotEstimate, plot_estimate
+from .pen_order import PlotEstimate, plot_estimate, travel_mm
 from .stroke_curves import curved_strokes
 from .strokes import split_long
 from .text_along import lettered_along, typeset_along

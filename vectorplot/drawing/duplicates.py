@@ -14,7 +14,8 @@ from vectorplot.geometry import intervals, ragged
 from vectorplot.geometry.budget import mapped, threads, workers
 from vectorplot.geometry.elementary import arctan2, tan
 from vectorplot.geometry.intervals import NUMBER_BITS
-from vectorplot.geometry.radix import radix_order
+from vectorplot.geometry.ragged import radix_order
+from vectorplot.geometry.vectors import cross
 from vectorplot.scene.view import View
 from vectorplot.tolerances import COLLINEAR_OF_LENGTH, ONE_LINE_OF_EXTENT, TOUCHING_AT_MM
 from vectorplot.visibility.polyhedra import grid as grids
@@ -166,7 +167,7 @@ class _Segments:
         collinear = np.ones(len(one), dtype=np.bool_)
         for ends in (self.start, self.end):
             arm = ends.take(short, axis=0) - origin
-            collinear &= np.abs(arm[:, 0] * unit[:, 1] - arm[:, 1] * unit[:, 0]) <= most
+            collinear &= np.abs(cross(arm, unit)) <= most
         return some[collinear], one[collinear], other[collinear]
 
     def overlaps(self, winner: Ints, loser: Ints) -> tuple[Ints, Floats, Floats]:
@@ -442,7 +443,7 @@ def _slopes(ends: Floats, mate: Ints, directions: Floats) -> Floats:
         size, other = np.hypot(*along.T), np.hypot(*step.T)
         # The tangent of the circle through three points leans to each chord as the other one is long.
         tangent = along * (other / size)[:, None] + step * (size / np.where(other > 0.0, other, 1.0))[:, None]
-        rise = along[:, 0] * tangent[:, 1] - along[:, 1] * tangent[:, 0]
+        rise = cross(along, tangent)
         run = (along * tangent).sum(axis=1)
         good = linked[:, side] & (np.abs(rise) < _STEEPEST * run)
         slopes[good, side] = rise[good] / run[good]

@@ -32,6 +32,7 @@ from vectorplot.geometry.regions import (
     without_splinters,
 )
 from vectorplot.geometry.triangles import PAIRS_AT_ONCE, overlapping
+from vectorplot.geometry.vectors import cross
 from vectorplot.tolerances import CLEARANCE_MM, EDGE_ON_SINE, GRID_MM, STEP_BORDER_MM
 
 AREA_MM2 = GRID_MM * GRID_MM
@@ -417,7 +418,7 @@ def _measures(fills: Fills) -> tuple[Floats, Floats]:
     start, sizes = fills.offsets[:-1], np.diff(fills.offsets)
     arm = fills.points - np.repeat(fills.points[start], sizes, axis=0)
     after = arm[next_positions(fills.offsets, np.arange(len(arm)))]
-    area = np.add.reduceat(arm[:, 0] * after[:, 1] - arm[:, 1] * after[:, 0], start)
+    area = np.add.reduceat(cross(arm, after), start)
     return np.abs(area) / 2.0, np.add.reduceat(np.hypot(*(after - arm).T), start)
 
 
@@ -640,7 +641,7 @@ def _colours_at(points: Floats, fills: Fills, source: Ints) -> Floats:
 def _turn(a: Floats, b: Floats, c: Floats) -> Floats:
     """(n,) twice the signed areas of triangles."""
     one, other = b - a, c - a
-    return np.asarray(one[:, 0] * other[:, 1] - one[:, 1] * other[:, 0])
+    return cross(one, other)
 
 
 # Polygons that follow each other in one colour as one region.

@@ -17,7 +17,7 @@ from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.budget import in_turn, mapped, may_stop, slices, workers
-from vectorplot.geometry.radix import ShortKeys, radix_order
+from vectorplot.geometry.ragged import ShortKeys, radix_order
 from vectorplot.geometry.vectors import cross, dot, norm
 from vectorplot.scene.hatching import DOT_MM, Hatching, Stippling
 from vectorplot.tolerances import (
@@ -210,7 +210,7 @@ def _darkness(fills: Fills) -> tuple[Floats, Floats, Floats]:
     start = first[at]
     one, other = (fills.points[start + k] - fills.points[start] for k in (1, 2))
     rise, rise_other = dark[start + 1] - dark[start], dark[start + 2] - dark[start]
-    area = one[:, 0] * other[:, 1] - one[:, 1] * other[:, 0]
+    area = cross(one, other)
     wide = np.abs(area) > GRID_MM * (np.abs(one) + np.abs(other)).sum(axis=1)
     at, start, one, other = at[wide], start[wide], one[wide], other[wide]
     area, rise, rise_other = area[wide], rise[wide], rise_other[wide]

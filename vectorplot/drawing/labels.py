@@ -14,8 +14,8 @@ from vectorplot.arrays import Floats, Ints
 from vectorplot.drawing.drawing import Layer, Paths, Pen
 from vectorplot.drawing.fills import Colours, FillKind, Fills
 from vectorplot.drawing.formulas import FORMULA, without_formulas_in_strokes
-from vectorplot.drawing.layers import PENS
 from vectorplot.drawing.letters import Lettering, broken_at_blanks, lettered, typeset
+from vectorplot.drawing.pens import PENS
 from vectorplot.drawing.strokes import chosen, concatenated, joined, split_long
 from vectorplot.drawing.text_along import (
     grown,
@@ -657,7 +657,7 @@ def measures_tried(
         up = np.array([-way[1], way[0]])
         side = float(np.sign(matmul(text.boxes.reshape(-1, 2).mean(axis=0) - end, up))) if len(text.boxes) else 0.0
         found.append(Measure(text, line, -(2.0 * gap * side) * up))
-    return [*found, *_raised(path, usual, gap, mm)]
+    return [*found, *_raised(path, usual, gap)]
 
 
 def _way(path: Floats) -> Floats:
@@ -667,7 +667,7 @@ def _way(path: Floats) -> Floats:
     return np.asarray(way / long if long > 0.0 else np.zeros(2))
 
 
-def _raised(path: Floats, usual: Lettering, gap: float, mm: float) -> list[Measure]:
+def _raised(path: Floats, usual: Lettering, gap: float) -> list[Measure]:
     """A text one and two rows farther from its line, at the end of a line from its middle."""
     middle = 0.5 * (path[0] + path[-1])
     box = usual.boxes.reshape(-1, 2)

@@ -12,12 +12,106 @@ from pathlib import Path
 from typing import Any, Literal, NoReturn
 
 from vectorplot.drawing.drawing import Pen
-from vectorplot.drawing.layers import ink
 from vectorplot.errors import InputError
 from vectorplot.scene.hatching import Hatching, Stippling
 from vectorplot.scene.page import LENGTH, length_mm
 from vectorplot.scene.pens import FINEST_MM, FRAME, HIDDEN, LONGEST_MM, WIDEST_MM, PenOverrides, target_of, unknown_item
 from vectorplot.words import COLOURS, LineKind, check_colour, check_word, is_colour, nearest, unknown
+
+# The pens of layers, and the inks of colours.
+
+BLACK = "#000000"
+
+PENS = {
+    "visible": Pen(0.25, BLACK),
+    "contour": Pen(0.5, BLACK),
+    "intersection": Pen(0.35, BLACK),
+    "hidden": Pen(0.13, BLACK),
+    "pattern": Pen(0.18, BLACK),
+    "isophote": Pen(0.18, BLACK),
+    "section": Pen(0.18, BLACK),
+    "curve": Pen(0.5, BLACK),
+    "integral": Pen(0.18, BLACK),
+    "hatch": Pen(0.18, BLACK),
+    "index": Pen(0.35, BLACK),
+    "label": Pen(0.25, BLACK),
+    "centre": Pen(0.18, BLACK),
+    "suggestive": Pen(0.35, BLACK),
+    "ridge": Pen(0.25, BLACK),
+    "valley": Pen(0.25, BLACK),
+    "apparent": Pen(0.35, BLACK),
+    "cut": Pen(0.7, BLACK),
+    "ghost": Pen(0.13, BLACK),
+    "trace": Pen(0.13, BLACK),
+    "outline": Pen(0.5, BLACK),
+    "tangent": Pen(0.13, BLACK),
+    "terminator": Pen(0.25, BLACK),
+    "shadow": Pen(0.25, BLACK),
+    "reflected": Pen(0.18, BLACK),
+    "refracted": Pen(0.18, BLACK),
+}
+"""The pens of layers by kind, as a draughtsman would choose them."""
+
+KIND_LAYER = {
+    LineKind.CONTOUR: "contour",
+    LineKind.BOUNDARY: "contour",
+    LineKind.CREASE: "visible",
+    LineKind.EDGES: "visible",
+    LineKind.INTERSECTION: "intersection",
+    LineKind.PATTERN: "pattern",
+    LineKind.PARAMETER: "visible",
+    LineKind.ISOPHOTE: "isophote",
+    LineKind.SECTION: "section",
+    LineKind.CURVE: "curve",
+    LineKind.INTEGRAL: "integral",
+    LineKind.HATCH: "hatch",
+    LineKind.INDEX: "index",
+    LineKind.LABEL: "label",
+    LineKind.CENTRE: "centre",
+    LineKind.SUGGESTIVE: "suggestive",
+    LineKind.RIDGE: "ridge",
+    LineKind.VALLEY: "valley",
+    LineKind.APPARENT: "apparent",
+    LineKind.CUT: "cut",
+    LineKind.GHOST: "ghost",
+    LineKind.TRACE: "trace",
+    LineKind.OUTLINE: "outline",
+    LineKind.TANGENT: "tangent",
+    LineKind.TERMINATOR: "terminator",
+    LineKind.SHADOW: "shadow",
+    LineKind.REFLECTED: "reflected",
+    LineKind.REFRACTED: "refracted",
+}
+
+INKS = {
+    "gray": "#4d4d4d",
+    "green": "#1a7a1a",
+    "yellow": "#b8860b",
+    "blue": "#1f4fa3",
+    "pink": "#c2185b",
+    "cyan": "#00838f",
+    "magenta": "#a0139f",
+    "orange": "#d35400",
+    "white": "#bdbdbd",
+    "black": BLACK,
+    "red": "#c00000",
+}
+"""Inks for the names of palettes: dark enough for a line on white paper."""
+
+
+FRAME_PEN = Pen(0.5)
+"""What draws frames and titles."""
+
+
+def ink(colour: str) -> str:
+    """The ink, #rrggbb, for the name of a palette; light and dark ones share that of their parent.
+
+    A colour given as #rrggbb is its own ink.
+    """
+    if colour.startswith("#"):
+        return colour
+    return INKS.get(colour.removeprefix("light").removeprefix("dark"), INKS["gray"])
+
 
 # Which pen draws what: rules by kind of line, by item and by both, as people write them.
 

@@ -14,8 +14,8 @@ import numpy as np
 from vectorplot.arrays import Floats, Ints
 from vectorplot.drawing.drawing import NO_CURVE, CurvedStrokes, Drawing, Layer, Paths, Pen
 from vectorplot.drawing.fills import Fills
-from vectorplot.drawing.layers import PENS
 from vectorplot.drawing.letters import Lettering, lettered, typeset
+from vectorplot.drawing.pens import PENS
 from vectorplot.drawing.texts import Texts
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged

@@ -17,7 +17,7 @@ from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
 from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.polylines import joined, segments, take, with_points
-from vectorplot.geometry.vectors import norm
+from vectorplot.geometry.vectors import cross, norm
 from vectorplot.tolerances import (
     ARC_OF_TOLERANCE,
     CUBIC_OF_TOLERANCE,
@@ -477,7 +477,7 @@ def _on_one_circle(points: Floats, offsets: Ints, closed: Bools) -> Bools:
     it, and both turn by a twelfth of a circle at most."""
     before, after = ragged.preceding(offsets), ragged.following(offsets)
     back, ahead = points[before] - points, points[after] - points
-    double = 2.0 * (back[:, 0] * ahead[:, 1] - back[:, 1] * ahead[:, 0])
+    double = 2.0 * cross(back, ahead)
     turn = arctan2(-0.5 * double, -(back * ahead).sum(axis=1))
     sound = (np.abs(turn) <= 2.0 * np.pi / FEWEST_SIDES + WHOLE_TURN) & (np.abs(turn) > STRAIGHT_TURN)
     ends = np.flatnonzero(~closed)

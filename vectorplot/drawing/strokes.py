@@ -14,7 +14,8 @@ from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.polylines import joined as joined_of_polylines
 from vectorplot.geometry.polylines import take, with_points
-from vectorplot.geometry.radix import Keys, radix_order
+from vectorplot.geometry.ragged import Keys, radix_order
+from vectorplot.geometry.vectors import cross
 from vectorplot.geometry.weld import close_points
 from vectorplot.tolerances import SUM_OF_LENGTHS
 
@@ -833,10 +834,10 @@ def _crossings(start: Floats, end: Floats, ring: Floats) -> tuple[Ints, Floats, 
     the order of segments; and how many segments there are."""
     along, side = (end - start)[:, None], np.roll(ring, -1, axis=0) - ring
     away = ring - start[:, None]
-    turn = along[..., 0] * side[:, 1] - along[..., 1] * side[:, 0]
+    turn = cross(along, side)
     divisor = np.where(turn != 0.0, turn, 1.0)
-    t = (away[..., 0] * side[:, 1] - away[..., 1] * side[:, 0]) / divisor
-    u = (away[..., 0] * along[..., 1] - away[..., 1] * along[..., 0]) / divisor
+    t = cross(away, side) / divisor
+    u = cross(away, along) / divisor
     segment, which = np.nonzero((turn != 0.0) & (t > 0.0) & (t < 1.0) & (u >= 0.0) & (u < 1.0))
     return segment, t[segment, which], len(start)
 

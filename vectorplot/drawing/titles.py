@@ -20,9 +20,9 @@ from vectorplot.drawing.text_along import grown, outside_boxes
 from vectorplot.errors import InputError
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.vectors import norm
+from vectorplot.scene.colour_scales import ScaleBar
 from vectorplot.scene.page import Page
 from vectorplot.scene.placement import Placement
-from vectorplot.scene.scales import ScaleBar
 
 SIZES_MM = (5.0, 2.5)
 """The height of the capitals of titles: as large as fits the margin and the width of the page, between these."""

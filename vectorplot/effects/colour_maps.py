@@ -39,12 +39,12 @@ from vectorplot.geometry.projections import Projection, projection_of
 from vectorplot.geometry.vectors import norm
 from vectorplot.io.expressions import parse_expression
 from vectorplot.scene.annotations import thin_line
+from vectorplot.scene.colour_scales import BAR_LETTERS_MM, BoxAxes, Colouring, Fields
 from vectorplot.scene.item import Item, SurfaceNormals
 from vectorplot.scene.labels import BesidePoint, Label
 from vectorplot.scene.material import Material
 from vectorplot.scene.page import Page
 from vectorplot.scene.placement import Placement, camera_of, fitted_with_room
-from vectorplot.scene.scales import BAR_LETTERS_MM, BoxAxes, Colouring, Fields
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.surface_lines import NO_LINES, SurfaceLines, round_heights
 from vectorplot.scene.view import View

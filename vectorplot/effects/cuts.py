@@ -14,13 +14,12 @@ import numpy as np
 from vectorplot.arrays import Floats, Ints
 from vectorplot.curves.curve import Curve, is_curve
 from vectorplot.curves.cut_curve import CutCurve, parts_outside
-from vectorplot.drawing.layers import PENS
+from vectorplot.drawing.pens import PENS
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.features.contours_and_isophotes import plane_sections
 from vectorplot.features.curve_tracing import Tracing
-from vectorplot.features.implicit_curves import implicit_plane_sections
+from vectorplot.features.implicit_curves import ImplicitTracing, implicit_plane_sections
 from vectorplot.features.implicit_meshes import implicit_mesh
-from vectorplot.features.implicit_tracing import ImplicitTracing
 from vectorplot.features.parameter_curves import domain_borders
 from vectorplot.features.polygonization import BOXED, polygonized, sides_of
 from vectorplot.geometry import ragged

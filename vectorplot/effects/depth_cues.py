@@ -14,7 +14,8 @@ import numpy as np
 from vectorplot.arrays import Floats, Ints
 from vectorplot.drawing.drawing import Layer, Paths, Pen
 from vectorplot.drawing.fills import Fills
-from vectorplot.drawing.layers import PENS, layers_of, shown_items
+from vectorplot.drawing.layers import layers_of, shown_items
+from vectorplot.drawing.pens import PENS
 from vectorplot.drawing.strokes import chosen, concatenated, sections, unrolled
 from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul
@@ -26,8 +27,6 @@ from vectorplot.shading.illumination import MIDDLE, depth_shades, edge_shades, s
 from vectorplot.shading.palettes import PALETTE_SIZE, palette
 from vectorplot.shading.shaded_faces import limited_depths
 from vectorplot.tolerances import ZERO_OF_EXTENT
-from vectorplot.visibility.polyhedra.hidden_lines import Visibility
-from vectorplot.visibility.polyhedra.lines import Lines
 
 
 def depth_cued(
@@ -125,12 +124,6 @@ def _pen(pen: Pen, cue: DepthCue, share: float, paper: Sequence[int]) -> Pen:
 
 BACKGROUND = "gray"
 """Its darkest shade is behind wireframes where the scene names no background."""
-
-
-def all_lines(lines: Lines) -> Visibility:
-    """Every line, from end to end, as if nothing hid it."""
-    count = len(lines)
-    return Visibility(np.arange(count), np.zeros(count), np.ones(count), np.zeros(count, dtype=np.intp))
 
 
 def wire_layers(

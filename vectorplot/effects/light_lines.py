@@ -24,9 +24,8 @@ from vectorplot.effects.shadow_casters import (
     light_system,
     light_views,
 )
-from vectorplot.features.conditions import CentralContour, Isophote
-from vectorplot.features.pinch_points import through_pinch_points
-from vectorplot.features.polygonization import ImplicitCentralContour, ImplicitIsophote
+from vectorplot.features.conditions import CentralContour, ImplicitCentralContour, ImplicitIsophote, Isophote
+from vectorplot.features.surface_singularities import through_pinch_points
 from vectorplot.geometry import ragged, records
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.boxes import overlapping_boxes

@@ -531,11 +531,6 @@ CLEAR_LEVEL = 1 << 20
 """The level of these shadows: they come after all other decals of a face."""
 
 
-def is_clear(item: Item) -> bool:
-    """Whether light goes through an item, but not all of it."""
-    return item.material.is_clear and item.material.opacity > 0.0
-
-
 def transparent_shadows(
     view: View,
     scene: Scene,
@@ -556,7 +551,7 @@ def transparent_shadows(
     """
     groups: dict[tuple[str, float], Bools] = {}
     for number, item in enumerate(scene.items):
-        if is_clear(item) and not view.occludes[number]:
+        if item.dims_light and not view.occludes[number]:
             same = (item.colour, item.material.opacity)
             groups.setdefault(same, np.zeros(len(scene.items), dtype=np.bool_))[number] = True
     if not groups:

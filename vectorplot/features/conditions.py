@@ -1,4 +1,5 @@
-"""The conditions f(u, v) = 0 that curves on a surface satisfy, with their slopes: one place for each formula.
+"""The conditions f(u, v) = 0, on implicit surfaces g(x) = 0, that curves on a surface satisfy, with their slopes: one
+place for each formula.
 
 Tracers follow these curves, and visibility is decided by the same functions.
 """
@@ -18,7 +19,7 @@ from vectorplot.curves.curve import number, vector
 from vectorplot.errors import InputError
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.records import Elements
-from vectorplot.geometry.vectors import all_finite, dot, normalize
+from vectorplot.geometry.vectors import all_finite, dot, norm, normalize
 from vectorplot.surfaces.placed_surface import PlacedSurface
 from vectorplot.surfaces.stacked import (
     StackedSurfaces,
@@ -27,7 +28,7 @@ from vectorplot.surfaces.stacked import (
     points_and_normals,
     unit_normals,
 )
-from vectorplot.surfaces.surface import Domain, Surface, first_jets
+from vectorplot.surfaces.surface import Domain, ImplicitSurface, Surface, first_jets, hessians
 
 Slopes = tuple[Floats, Floats]
 
@@ -283,6 +284,117 @@ def check_cosine(cosine: float) -> None:
     """Errors: InputError for a cosine that is not within -1 and 1."""
     if not abs(number("isophotes: cosine", cosine)) <= 1.0:
         raise InputError(f"isophotes: cosine {cosine:g}: cosines must lie between -1 and 1")
+
+
+# The same on implicit surfaces: g = 0 in space, with gradients.
+
+
+@dataclass(frozen=True, eq=False)
+class ImplicitCentralContour:
+    """g = N.(x - eye), N the unit gradient of F, eye (3,): positive where N points away from the eye, NaN where the
+    gradient vanishes. Errors: InputError for an eye that is not three finite numbers.
+    Source: Glaeser, section 8.4, equations 25 to 27.
+    """
+
+    surface: ImplicitSurface
+    eye: ArrayLike
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "eye", vector("contour: eye", self.eye))
+
+    @property
+    def farthest(self) -> float:
+        """The largest distance of the eye from points of the box of the surface: no value is larger."""
+        low, high = np.asarray(self.surface.box, dtype=np.float64)
+        eye = np.asarray(self.eye)
+        return float(norm(np.maximum(np.abs(low - eye), np.abs(high - eye))))
+
+    def values(self, points: Floats) -> Floats:
+        """(...,) distances of the eye from the tangent planes."""
+        return dot(points - np.asarray(self.eye), implicit_unit_normals(self.surface, points))
+
+    def gradients(self, points: Floats) -> Floats:
+        """(..., 3) gradients."""
+        unit, turn = _turning(self.surface, points, points - np.asarray(self.eye))
+        return turn + unit
+
+
+@dataclass(frozen=True, eq=False)
+class ImplicitIsophote:
+    """g = N.l - c: parallel light l (3,), of any length, kept as a unit vector, meets the surface at the cosine c; at 0
+    the surface turns away from an eye at infinity in that direction. NaN where the gradient of F vanishes.
+
+    Errors: InputError for a light without length, a cosine not within -1 and 1.
+    Source: Glaeser, section 8.4, equation 28.
+    """
+
+    surface: ImplicitSurface
+    light: ArrayLike
+    cosine: float = 0.0
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "light", normalize(vector("isophotes: light", self.light)))
+        check_cosine(self.cosine)
+
+    def values(self, points: Floats) -> Floats:
+        """(...,) cosines of the angles between normal and light, less c."""
+        return np.asarray(matmul(implicit_unit_normals(self.surface, points), np.asarray(self.light)) - self.cosine)
+
+    def gradients(self, points: Floats) -> Floats:
+        """(..., 3) gradients."""
+        return _turning(self.surface, points, np.broadcast_to(np.asarray(self.light), points.shape))[1]
+
+
+@dataclass(frozen=True, eq=False)
+class ImplicitPointIsophote:
+    """g = N.w / |w| - c, w = light - x: the light of a point (3,) meets the surface at the cosine c.
+
+    Errors: InputError for a light that is not three finite numbers, a cosine not within -1 and 1.
+    Edge cases: NaN where the light stands.
+    """
+
+    surface: ImplicitSurface
+    light: ArrayLike
+    cosine: float
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "light", vector("isophotes: light", self.light))
+        check_cosine(self.cosine)
+
+    def values(self, points: Floats) -> Floats:
+        """(...,) cosines of the angles between normal and light, less c."""
+        return dot(self._way(points)[0], implicit_unit_normals(self.surface, points)) - self.cosine
+
+    def gradients(self, points: Floats) -> Floats:
+        """(..., 3) gradients."""
+        way, distance = self._way(points)
+        unit, turn = _turning(self.surface, points, way)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            return np.asarray(turn - (unit - dot(unit, way)[..., None] * way) / distance)
+
+    def _way(self, points: Floats) -> tuple[Floats, Floats]:
+        """(..., 3) unit vectors to the light, and its distances (..., 1)."""
+        way = np.asarray(self.light) - points
+        distance = np.linalg.norm(way, axis=-1, keepdims=True)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            return np.asarray(way / distance), np.asarray(distance)
+
+
+def implicit_unit_normals(surface: ImplicitSurface, points: Floats) -> Floats:
+    """(..., 3) unit gradients of F, pointing where F grows; NaN where the gradient vanishes."""
+    slopes = surface.gradients(points)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        return np.asarray(slopes / norm(slopes)[..., None])
+
+
+def _turning(surface: ImplicitSurface, points: Floats, way: Floats) -> tuple[Floats, Floats]:
+    """(..., 3) the unit gradients N of F, and the gradients of N.way with way (..., 3) held fast."""
+    slopes, bends = surface.gradients(points), hessians(surface, points)
+    length = np.linalg.norm(slopes, axis=-1, keepdims=True)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        unit = slopes / length
+        across = way - dot(unit, way)[..., None] * unit
+        return np.asarray(unit), np.asarray(np.einsum("...ij,...j->...i", bends, across) / length)
 
 
 # One condition on many surfaces, or on many levels, asked at once: every pair of parameters may be another's.

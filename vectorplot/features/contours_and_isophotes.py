@@ -39,9 +39,9 @@ from vectorplot.features.curve_tracing import (
     samples_of_each,
     together,
 )
-from vectorplot.features.cut_curves import cut_as
 from vectorplot.features.parameter_curves import borders
-from vectorplot.features.pinch_points import ThroughPinchPoints, through_pinch_points
+from vectorplot.features.surface_singularities import ThroughPinchPoints, through_pinch_points
+from vectorplot.features.trimmed_curves import cut_as
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.polylines import NumberedLines, take
 from vectorplot.geometry.rotations import axis_frame

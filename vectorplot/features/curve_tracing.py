@@ -25,7 +25,7 @@ from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.budget import USUAL, Budget, in_turn, slices
 from vectorplot.geometry.polylines import DOUBTS, EACH_LINE, EACH_POINT, NumberedLines, joined, take
 from vectorplot.geometry.records import APART
-from vectorplot.geometry.vectors import all_finite, from_components, norm
+from vectorplot.geometry.vectors import all_finite, from_components, norm, snapped
 from vectorplot.surfaces.surface import Domain, Surface
 from vectorplot.tolerances import (
     BORDER_SEEN_FROM,
@@ -375,8 +375,8 @@ def curves_on_each(
     flat = (small[:, 1:, 1:] & small[:, 1:, :-1] & small[:, :-1, 1:] & small[:, :-1, :-1]).any(axis=(1, 2))
     noise = np.maximum(np.array(roundings), np.where(flat, tiny, 0.0))
 
-    def snapped(u: Floats, v: Floats, of: Ints) -> Floats:
-        return _without_noise(values(u, v, of), noise[of])
+    def known(u: Floats, v: Floats, of: Ints) -> Floats:
+        return snapped(values(u, v, of), noise[of])
 
     def slopes(u: Floats, v: Floats, of: Ints) -> tuple[Floats, Floats]:
         return conditions.at(of).slopes(*wrapped(conditions.surface(of).domain, u, v))
@@ -391,7 +391,7 @@ def curves_on_each(
     else:
         tolerances = [tracing.tolerance or np.inf] * len(conditions)
     found = zero_manifolds(
-        snapped,
+        known,
         domains,
         columns=tracing.columns,
         rows=tracing.rows,
@@ -399,7 +399,7 @@ def curves_on_each(
         resolution=tracing.resolution,
         positions=space,
         tolerances=tolerances,
-        values=_without_noise(on_grid, noise[:, None, None]),
+        values=snapped(on_grid, noise[:, None, None]),
         budget=tracing.budget,
     )
     led = [through_poles(surface, curves) for surface, curves in zip(conditions.surfaces, found, strict=True)]
@@ -409,10 +409,6 @@ def curves_on_each(
         _to_rims(surface, own, tracing.resolution) if has_holes else own
         for surface, own, has_holes in zip(conditions.surfaces, curves, holed, strict=True)
     ]
-
-
-def _without_noise(values: Floats, noise: Floats) -> Floats:
-    return np.where(np.abs(values) <= noise, 0.0, values)
 
 
 def _to_rims(surface: Surface, curves: SurfaceCurves, resolution: float) -> SurfaceCurves:

@@ -20,7 +20,7 @@ from vectorplot.features.holes import (
     ways_between,
     wrapped,
 )
-from vectorplot.features.intersection_grids import cell_corners
+from vectorplot.features.patches import cell_corners
 from vectorplot.geometry import ragged
 from vectorplot.geometry.budget import unresolved
 from vectorplot.geometry.chord_refinement import Traces, bisected, refined, straight_between

@@ -9,8 +9,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.curve_tracing import Picture
-from vectorplot.features.intersection_grids import FREE
-from vectorplot.features.patches import OnSurfaces, Patch, SurfacePatch
+from vectorplot.features.patches import FREE, OnSurfaces, Patch, SurfacePatch
 from vectorplot.features.triangle_intersections import Contacts
 from vectorplot.geometry.algebra import least_squares, matmul
 from vectorplot.geometry.budget import in_turn

@@ -21,7 +21,7 @@ from vectorplot.features.feature_lines import (
     line_function,
     zeros_between,
 )
-from vectorplot.features.implicit_tracing import ImplicitCurves
+from vectorplot.features.implicit_curves import ImplicitCurves
 from vectorplot.features.mesh_edge_lines import apart_at_creases
 from vectorplot.features.mesh_lines import (
     FaceTriangles,
@@ -37,7 +37,7 @@ from vectorplot.geometry.algebra import linear_solution
 from vectorplot.geometry.budget import in_turn, slices
 from vectorplot.geometry.connectivity import concat
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.vectors import cross, dot, norm
+from vectorplot.geometry.vectors import cross, dot, norm, summed_by
 from vectorplot.surfaces.surface import ImplicitSurface
 from vectorplot.tolerances import (
     LEAST_DIVISOR,
@@ -108,7 +108,7 @@ def smooth_normals(points: Floats, triangles: Ints) -> Floats:
         out, back = points[after] - points[own], points[before] - points[own]
         size = np.maximum(norm(out) * norm(back), LEAST_DIVISOR)
         part = cross(out / size[:, None], back / size[:, None])
-        total += np.stack([np.bincount(own, column, len(points)) for column in part.T], axis=1)
+        total += summed_by(own, part, len(points))
     long = norm(total)
     return np.asarray(total / np.where(long > 0.0, long, np.inf)[:, None])
 

@@ -30,7 +30,16 @@ from vectorplot.geometry.polylines import (
     joined,
     with_points_kept,
 )
-from vectorplot.geometry.vectors import all_components, any_component, component_sum, cross, norm, normalize
+from vectorplot.geometry.vectors import (
+    all_components,
+    any_component,
+    component_sum,
+    cross,
+    norm,
+    normalize,
+    snapped,
+    summed_by,
+)
 from vectorplot.geometry.winding import edge_uses, face_barycentres
 from vectorplot.tolerances import LEAST_DIVISOR, LEAST_VALUE, NO_NORMAL, ROUNDING, ROUNDING_OF_TERMS, ZERO_OF_EXTENT
 from vectorplot.words import LineKind
@@ -260,7 +269,7 @@ def mesh_plane_sections(mesh: Mesh, normal: ArrayLike, offsets: ArrayLike) -> Me
     middle = float(matmul(faces.centre, n))
 
     def above(offset: Floats) -> Floats:
-        return _with_lowest_borders(faces.triangles, _snapped(height - (offset - middle), faces.rounding))
+        return _with_lowest_borders(faces.triangles, snapped(height - (offset - middle), faces.rounding))
 
     return without_inner(curves_of_values(faces, levels, above), faces.extent)
 
@@ -369,7 +378,7 @@ def vertex_normals(mesh: Mesh) -> Floats:
     out, back = mesh.vertices[corner[following]] - here, mesh.vertices[corner[before]] - here
     angle = arctan2(norm(np.cross(out, back)), component_sum(out * back))
     weighted = mesh.face_normals[mesh.corner_face] * angle[:, None]
-    total = np.stack([np.bincount(corner, weighted[:, k], len(mesh.vertices)) for k in range(3)], axis=1)
+    total = summed_by(corner, weighted, len(mesh.vertices))
     length = np.linalg.norm(total, axis=1, keepdims=True)
     return np.asarray(total / np.where(length > NO_NORMAL, length, np.inf))
 
@@ -384,7 +393,7 @@ def _across_faces(mesh: Mesh, cosine: Callable[[Floats, Floats], Floats], levels
     faces: FaceTriangles = face_triangles(mesh)
     normals = vertex_normals(mesh)
     w = np.where(normals.any(axis=1), cosine(mesh.vertices, normals), np.nan)
-    return curves_of_values(faces, levels, lambda c: _snapped(w - c, ROUNDING_OF_TERMS))
+    return curves_of_values(faces, levels, lambda c: snapped(w - c, ROUNDING_OF_TERMS))
 
 
 def _along_edges(mesh: Mesh, cosine: Floats, levels: Floats) -> MeshCurves:
@@ -428,10 +437,6 @@ def _with_lowest_borders(triangles: Ints, values: Floats) -> Floats:
     for corner in (start, end):
         result[curve[low], corner[low]] = -LEAST_VALUE
     return result.reshape(values.shape)
-
-
-def _snapped(values: Floats, rounding: float) -> Floats:
-    return np.where(np.abs(values) <= rounding, 0.0, values)
 
 
 def _finite(name: str, values: ArrayLike) -> Floats:

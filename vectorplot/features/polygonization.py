@@ -1,35 +1,29 @@
-"""Implicit surfaces: their meshes, the planes where they end, conditions on them, and curves F = 0, g = 0 in space."""
+"""Implicit surfaces polygonised: their meshes, and the planes where they end."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.curves.curve import vector
 from vectorplot.errors import InputError
-from vectorplot.features.conditions import SpatialCondition, check_cosine
 from vectorplot.features.scalar_fields import bracketed_zeros
 from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul, pseudo_inverse
 from vectorplot.geometry.budget import in_turn
-from vectorplot.geometry.chord_refinement import Refined, Traces, refined
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.mesh_cuts import divided_mesh, nothing_beside
-from vectorplot.geometry.vectors import all_components, dot, from_components, greatest_component, norm, normalize
+from vectorplot.geometry.vectors import all_components, from_components, greatest_component
 from vectorplot.geometry.weld import close_points
 from vectorplot.geometry.winding import components, edge_uses
 from vectorplot.surfaces.implicit import CutImplicit
-from vectorplot.surfaces.surface import ImplicitSurface, hessians
+from vectorplot.surfaces.surface import ImplicitSurface
 from vectorplot.tolerances import (
     ABOVE_WHOLE,
     FALLS_BESIDE,
     LARGEST_OF_SINGLES,
-    LAST_STEP_OF_EXTENT,
     MERGED_OF_CELL,
     RESIDUAL_OF_EXTENT,
     ROUNDING,
@@ -427,230 +421,3 @@ def _connection(mesh: Mesh) -> tuple[int, int, int]:
     uses = edge_uses(mesh)
     parts = components(mesh, uses)[0]
     return parts, len(mesh.vertices) - len(uses.first) + mesh.face_count, int((uses.count > 2).any())
-
-
-# The conditions g(x) = 0 that curves on an implicit surface satisfy in space, with their gradients.
-#
-# One place for each formula: tracers follow these curves, and visibility is decided by the same functions.
-
-
-@dataclass(frozen=True, eq=False)
-class ImplicitCentralContour:
-    """g = N.(x - eye), N the unit gradient of F, eye (3,): positive where N points away from the eye, NaN where the
-    gradient vanishes. Errors: InputError for an eye that is not three finite numbers.
-    Source: Glaeser, section 8.4, equations 25 to 27.
-    """
-
-    surface: ImplicitSurface
-    eye: ArrayLike
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "eye", vector("contour: eye", self.eye))
-
-    @property
-    def farthest(self) -> float:
-        """The largest distance of the eye from points of the box of the surface: no value is larger."""
-        low, high = np.asarray(self.surface.box, dtype=np.float64)
-        eye = np.asarray(self.eye)
-        return float(norm(np.maximum(np.abs(low - eye), np.abs(high - eye))))
-
-    def values(self, points: Floats) -> Floats:
-        """(...,) distances of the eye from the tangent planes."""
-        return dot(points - np.asarray(self.eye), implicit_unit_normals(self.surface, points))
-
-    def gradients(self, points: Floats) -> Floats:
-        """(..., 3) gradients."""
-        unit, turn = _turning(self.surface, points, points - np.asarray(self.eye))
-        return turn + unit
-
-
-@dataclass(frozen=True, eq=False)
-class ImplicitIsophote:
-    """g = N.l - c: parallel light l (3,), of any length, kept as a unit vector, meets the surface at the cosine c; at 0
-    the surface turns away from an eye at infinity in that direction. NaN where the gradient of F vanishes.
-
-    Errors: InputError for a light without length, a cosine not within -1 and 1.
-    Source: Glaeser, section 8.4, equation 28.
-    """
-
-    surface: ImplicitSurface
-    light: ArrayLike
-    cosine: float = 0.0
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "light", normalize(vector("isophotes: light", self.light)))
-        check_cosine(self.cosine)
-
-    def values(self, points: Floats) -> Floats:
-        """(...,) cosines of the angles between normal and light, less c."""
-        return np.asarray(matmul(implicit_unit_normals(self.surface, points), np.asarray(self.light)) - self.cosine)
-
-    def gradients(self, points: Floats) -> Floats:
-        """(..., 3) gradients."""
-        return _turning(self.surface, points, np.broadcast_to(np.asarray(self.light), points.shape))[1]
-
-
-@dataclass(frozen=True, eq=False)
-class ImplicitPointIsophote:
-    """g = N.w / |w| - c, w = light - x: the light of a point (3,) meets the surface at the cosine c.
-
-    Errors: InputError for a light that is not three finite numbers, a cosine not within -1 and 1.
-    Edge cases: NaN where the light stands.
-    """
-
-    surface: ImplicitSurface
-    light: ArrayLike
-    cosine: float
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "light", vector("isophotes: light", self.light))
-        check_cosine(self.cosine)
-
-    def values(self, points: Floats) -> Floats:
-        """(...,) cosines of the angles between normal and light, less c."""
-        return dot(self._way(points)[0], implicit_unit_normals(self.surface, points)) - self.cosine
-
-    def gradients(self, points: Floats) -> Floats:
-        """(..., 3) gradients."""
-        way, distance = self._way(points)
-        unit, turn = _turning(self.surface, points, way)
-        with np.errstate(invalid="ignore", divide="ignore"):
-            return np.asarray(turn - (unit - dot(unit, way)[..., None] * way) / distance)
-
-    def _way(self, points: Floats) -> tuple[Floats, Floats]:
-        """(..., 3) unit vectors to the light, and its distances (..., 1)."""
-        way = np.asarray(self.light) - points
-        distance = np.linalg.norm(way, axis=-1, keepdims=True)
-        with np.errstate(invalid="ignore", divide="ignore"):
-            return np.asarray(way / distance), np.asarray(distance)
-
-
-def implicit_unit_normals(surface: ImplicitSurface, points: Floats) -> Floats:
-    """(..., 3) unit gradients of F, pointing where F grows; NaN where the gradient vanishes."""
-    slopes = surface.gradients(points)
-    with np.errstate(invalid="ignore", divide="ignore"):
-        return np.asarray(slopes / norm(slopes)[..., None])
-
-
-def _turning(surface: ImplicitSurface, points: Floats, way: Floats) -> tuple[Floats, Floats]:
-    """(..., 3) the unit gradients N of F, and the gradients of N.way with way (..., 3) held fast."""
-    slopes, bends = surface.gradients(points), hessians(surface, points)
-    length = np.linalg.norm(slopes, axis=-1, keepdims=True)
-    with np.errstate(invalid="ignore", divide="ignore"):
-        unit = slopes / length
-        across = way - dot(unit, way)[..., None] * unit
-        return np.asarray(unit), np.asarray(np.einsum("...ij,...j->...i", bends, across) / length)
-
-
-# Points brought onto a curve F = 0, g = 0 in space, and polylines on it refined where they leave it.
-
-Picture = Callable[[Floats], Floats]
-
-REFINEMENT_ROUNDS = 16
-"""Steps of Newton's method until another way is tried."""
-
-
-@dataclass(frozen=True, eq=False)
-class CurveInSpace:
-    """The curve on which F of a surface and a condition g vanish. size: how large g is where it is far from zero;
-    extent: of the surface; noise: what rounding makes of coordinates."""
-
-    surface: ImplicitSurface
-    condition: SpatialCondition
-    size: float
-    extent: float
-    noise: float
-
-    def values(self, points: Floats) -> Floats:
-        """(...,) g; NaN where it is not finite."""
-        with np.errstate(all="ignore"):
-            w = np.array(self.condition.values(points), dtype=np.float64)
-        w[~np.isfinite(w)] = np.nan
-        return w
-
-    def slopes(self, points: Floats) -> tuple[Floats, Floats]:
-        """(n,3) the unit normals N of the surface, and the gradients of g along the surface."""
-        with np.errstate(all="ignore"):
-            normal = self.surface.gradients(points)
-            normal = normal / np.linalg.norm(normal, axis=-1, keepdims=True)
-            slope = self.condition.gradients(points)
-            return np.asarray(normal), np.asarray(slope - dot(slope, normal)[..., None] * normal)
-
-    def onto(self, points: Floats, reach: Floats, fixed: Bools | None = None) -> tuple[Floats, Bools]:
-        """Points (n,3) moved the shortest way onto the curve, steps not longer than reach (n,), and which got there.
-
-        fixed (n,3+k): sides that they stay on. A point that ends further off than twice its reach did not.
-        """
-        x, arrived = points.copy(), np.zeros(len(points), dtype=np.bool_)
-        active: Ints = np.arange(len(points))
-        for _ in range(REFINEMENT_ROUNDS):
-            if not len(active):
-                break
-            held = None if fixed is None else fixed[active]
-            step, there = self._step(x[active], held)
-            arrived[active] = there
-            length = np.linalg.norm(step, axis=1)
-            usable = np.isfinite(length)
-            with np.errstate(all="ignore"):
-                step *= np.minimum(1.0, reach[active] / np.where(length > 0.0, length, 1.0))[:, None]
-            # The last step of those that arrived costs nothing and gains digits, if it is a small one.
-            goes = usable & (~there | (length <= LAST_STEP_OF_EXTENT * self.extent))
-            x[active[goes]] += step[goes]
-            active = active[usable & ~there]
-        arrived &= np.linalg.norm(x - points, axis=1) <= 2.0 * reach
-        return np.where(arrived[:, None], x, points), arrived
-
-    def _step(self, x: Floats, fixed: Bools | None) -> tuple[Floats, Bools]:
-        """(n,3) Newton's step of least length for both equations, and whether x satisfies them already."""
-        with np.errstate(all="ignore"):
-            f, g = checked_values(self.surface, x), self.values(x)
-            slope_f, slope_g = self.surface.gradients(x), self.condition.gradients(x)
-            if fixed is not None:
-                sides = sides_of(self.surface)
-                slope_f, slope_g = sides.along(slope_f, fixed), sides.along(slope_g, fixed)
-            ff, fg, gg = dot(slope_f, slope_f), dot(slope_f, slope_g), dot(slope_g, slope_g)
-            determinant = ff * gg - fg * fg
-            of_f, of_g = (gg * f - fg * g) / determinant, (ff * g - fg * f) / determinant
-            step = -(of_f[:, None] * slope_f + of_g[:, None] * slope_g)
-            near = RESIDUAL_OF_EXTENT * self.extent + self.noise
-            there = (np.abs(f) <= near * np.sqrt(ff)) & (
-                np.abs(g) <= RESIDUAL_OF_EXTENT * self.size + self.noise * np.sqrt(gg)
-            )
-        return step, np.asarray(there)
-
-    def between(self, a: Floats, b: Floats, fixed: Bools) -> tuple[Floats, Bools]:
-        """(k,3) points of the curve between points a and b (k,3) of the surface on different sides of g = 0, and which
-        are zeros of g indeed; slow and sure: by brackets on the surface."""
-        reach = np.linalg.norm(b - a, axis=1)
-
-        def place(t: Floats, which: Ints) -> Floats:
-            chord = a[which] + t[:, None] * (b - a)[which]
-            return onto_surface(self.surface, chord, reach=reach[which], fixed=fixed[which])[0]
-
-        w0, w1 = self.values(a), self.values(b)
-        small = np.full(len(a), RESIDUAL_OF_EXTENT * self.size)
-        with np.errstate(all="ignore"):
-            guess = np.clip(np.nan_to_num(w0 / (w0 - w1), nan=0.5), 0.0, 1.0)
-        t, rest = bracketed_zeros(lambda t, which: self.values(place(t, which)), w0, w1, guess, small)
-        exact = (w0 == 0.0) | (w1 == 0.0)
-        t = np.where(w0 == 0.0, 0.0, np.where(w1 == 0.0, 1.0, t))
-        falls = np.abs(rest) <= FALLS_BESIDE * np.minimum(np.abs(w0), np.abs(w1)) + small
-        return place(t, np.arange(len(a))), np.asarray(exact | falls, dtype=np.bool_)
-
-
-def curve_in_space(surface: ImplicitSurface, condition: SpatialCondition, size: float) -> CurveInSpace:
-    """The curve on which a condition of this size holds."""
-    box = np.asarray(surface.box, dtype=np.float64)
-    noise = 4.0 * float(np.spacing(np.abs(box).max()))
-    return CurveInSpace(surface, condition, size, float(np.ptp(box, axis=0).max()), noise)
-
-
-def refined_chords(curve: CurveInSpace, lines: Traces, tolerance: float, picture: Picture | None, most: int) -> Refined:
-    """Polylines (points (p,3)) with points of the curve put in until chords stay within tolerance of it, measured in
-    the picture, or there are most of them."""
-
-    def between(start: Floats, end: Floats, part: Floats) -> tuple[Floats, Bools]:
-        chord = end - start
-        return curve.onto(start + part[:, None] * chord, np.linalg.norm(chord, axis=1))
-
-    return refined(lines, between, picture or (lambda points: points), tolerance, most)

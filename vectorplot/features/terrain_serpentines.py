@@ -19,7 +19,7 @@ from vectorplot.features.terrain_water import Ground, places_on_terrain
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.elementary import arctan2, power
 from vectorplot.geometry.mesh import TRIANGLE, Mesh
-from vectorplot.geometry.vectors import norm
+from vectorplot.geometry.vectors import cross, norm
 from vectorplot.tolerances import ROAD_ARRIVES, ZERO_OF_EXTENT
 
 # Legs of roads up a terrain and the hairpin bends between them, of many roads at once.
@@ -162,7 +162,7 @@ class Climb:
         # The sense of a bend is the side of the leg behind it.
         way = _plan(self.directions(self._part_of(face[on]), sense[on]))
         now = _rotated(heading[on], (sense * turn)[on])
-        crossing = now[:, 0] * way[:, 1] - now[:, 1] * way[:, 0]
+        crossing = cross(now, way)
         left[on] = sense[on] * arctan2(crossing, (now * way).sum(axis=1))
         return left, face
 
@@ -245,7 +245,7 @@ def draped(ground: Ground, plan: Floats) -> tuple[Floats, Ints]:
     start, way = segments[row, 0], segments[row, 1] - segments[row, 0]
     base, along = edges[:, 0], edges[:, 1] - edges[:, 0]
     with np.errstate(divide="ignore", invalid="ignore"):
-        part, place = _cross(base - start, along) / _cross(way, along), _cross(base - start, way) / _cross(way, along)
+        part, place = cross(base - start, along) / cross(way, along), cross(base - start, way) / cross(way, along)
     inner = (part > ZERO_OF_EXTENT) & (part < 1.0 - ZERO_OF_EXTENT) & (place >= 0.0) & (place <= 1.0)
     where = np.unique(np.concatenate([np.arange(len(line), dtype=np.float64), row[inner] + part[inner]]))
     number = np.minimum(where.astype(np.intp), len(segments) - 1)
@@ -253,10 +253,6 @@ def draped(ground: Ground, plan: Floats) -> tuple[Floats, Ints]:
     _, points = ground.below(places)
     faces, _ = ground.below(0.5 * (places[:-1] + places[1:]))
     return points, faces
-
-
-def _cross(a: Floats, b: Floats) -> Floats:
-    return np.asarray(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
 
 
 # Roads with hairpin bends between two places of a terrain.

@@ -19,7 +19,7 @@ from vectorplot.features.tangent_fields import SteepestSlope, TurnedField
 from vectorplot.geometry import ragged
 from vectorplot.geometry.mesh import TRIANGLE, Mesh
 from vectorplot.geometry.polylines import closed_round
-from vectorplot.geometry.vectors import greatest_component, least_component
+from vectorplot.geometry.vectors import cross, greatest_component, least_component
 from vectorplot.geometry.winding import edge_uses
 from vectorplot.tolerances import LEAST_DIVISOR, ZERO_OF_EXTENT
 
@@ -103,7 +103,7 @@ def _area(triangles: Floats) -> Floats:
     """(n,) twice the areas of triangles (n,3,2), with signs."""
     a, b, c = triangles[:, 0], triangles[:, 1], triangles[:, 2]
     one, two = b - a, c - a
-    return np.asarray(one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0])
+    return cross(one, two)
 
 
 def _weights(triangles: Floats, at: Floats) -> Floats:

@@ -34,7 +34,7 @@ from vectorplot.features.implicit_singular_lines import (
     led_into_singular_set,
     singular_lines,
 )
-from vectorplot.features.intersection_grids import UNEVEN, seam_numbers
+from vectorplot.features.patches import UNEVEN, seam_numbers
 from vectorplot.features.polygonization import BOXED, onto_surface, polygonized, settled_from, sides_of
 from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul

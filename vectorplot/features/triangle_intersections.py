@@ -7,8 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.features.intersection_grids import FREE, Tessellation
-from vectorplot.features.patches import Patch
+from vectorplot.features.patches import FREE, Patch, Tessellation
 from vectorplot.geometry import records
 from vectorplot.geometry.algebra import symmetric_eigen
 from vectorplot.geometry.boxes import PAIRS_AT_ONCE, overlapping_boxes

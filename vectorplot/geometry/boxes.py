@@ -1,9 +1,10 @@
-"""Boxes in space and which of many overlap, and hulls of sets of points by slabs and balls."""
+"""Boxes in space and in the image and which of many overlap, and hulls of sets of points by slabs and balls."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
+from functools import cached_property
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
@@ -12,6 +13,10 @@ from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.budget import in_turn, may_stop
 from vectorplot.geometry.vectors import component_sum, normalize
+
+if TYPE_CHECKING:
+    import shapely
+
 
 # Boxes in space, and which of many overlap.
 
@@ -190,3 +195,65 @@ class SlabHulls:
         i, j = i[near], j[near]
         near = ((self.low[3:, i] <= other.high[3:, j]) & (self.high[3:, i] >= other.low[3:, j])).all(axis=0)
         return i[near], j[near]
+
+
+# Boxes in the image in strips that a tree holds.
+
+
+@dataclass(frozen=True, eq=False)
+class BoxStrips:
+    """Boxes, low and high (2,t), of which so many that follow each other lie side by side: a strip of them has one box
+    in the tree, which is small, and built in no time."""
+
+    low: Floats
+    high: Floats
+    length: int
+
+    def overlapping(self, low: Floats, high: Floats) -> tuple[Ints, Ints]:
+        """Pairs of a box, from low to high (2,k), and one of these, that overlap; borders count."""
+        import shapely
+
+        box, strip = self._tree.query(shapely.box(*low, *high))
+        sizes = self._sizes[strip]
+        box, own = np.repeat(box, sizes), ragged.ranges(self.length * strip, sizes)
+        near = _overlap(low, high, box, self.low, self.high, own)
+        return box[near], own[near]
+
+    def overlapping_strips(self, other: BoxStrips) -> tuple[Ints, Ints]:
+        """Pairs of one of these boxes and one of others that overlap; borders count."""
+        strip, far = other.overlapping(*self._ends)
+        sizes = self._sizes[strip]
+        own, far = ragged.ranges(self.length * strip, sizes), np.repeat(far, sizes)
+        near = _overlap(self.low, self.high, own, other.low, other.high, far)
+        return own[near], far[near]
+
+    @cached_property
+    def _ends(self) -> tuple[Floats, Floats]:
+        """(2,s) and (2,s) low and high ends of strips."""
+        first = np.arange(0, self.low.shape[1], self.length)
+        return np.minimum.reduceat(self.low, first, axis=1), np.maximum.reduceat(self.high, first, axis=1)
+
+    @cached_property
+    def _sizes(self) -> Ints:
+        """(s,) how many boxes each strip has."""
+        count = self.low.shape[1]
+        return np.asarray(np.minimum(self.length, count - np.arange(0, count, self.length)))
+
+    @cached_property
+    def _tree(self) -> shapely.STRtree:
+        import shapely
+
+        low, high = self._ends
+        return shapely.STRtree(shapely.box(*low, *high))
+
+
+def _overlap(low: Floats, high: Floats, one: Ints, other_low: Floats, other_high: Floats, other: Ints) -> Ints:
+    """(p,) which pairs of boxes overlap."""
+    pairs = np.arange(len(one))
+    for axis in (0, 1):
+        # Of those that overlap along one axis few are left for the other.
+        near = other_low[axis].take(other) <= high[axis].take(one)
+        near &= other_high[axis].take(other) >= low[axis].take(one)
+        kept = np.flatnonzero(near)
+        pairs, one, other = pairs.take(kept), one.take(kept), other.take(kept)
+    return pairs

@@ -11,11 +11,12 @@ from contextvars import ContextVar, copy_context
 from dataclasses import dataclass, fields
 from itertools import chain, islice
 from threading import Lock
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
+from vectorplot.arrays import Ints
 from vectorplot.errors import InputError
 
 if TYPE_CHECKING:
@@ -257,3 +258,43 @@ def _shared(share: _Share, function: Callable[[T], R], chunk: T) -> R:
 def slices(count: int, size: int) -> list[slice]:
     """Slices of a size that cover so many things; the last one may be shorter."""
     return [slice(low, min(low + size, count)) for low in range(0, count, size)]
+
+
+# Rows taken in blocks whose partners fit into memory, until the budget is used up.
+
+FIRST_BLOCK, FASTER = 32, 8
+"""Rows of the first block, at least: how many partners rows have is not known yet; and so many times as many rows as in
+a block there may be in the next one."""
+
+PARTNERS_AT_ONCE = 1 << 18
+"""Partners of a block, about."""
+
+PAIRS_OF_EACH = 1 << 14
+"""The part of the budget's pairs that every row may have, if that is more in all: scenes of many lines have many."""
+
+
+@dataclass(frozen=True, eq=False)
+class Block(Generic[T]):
+    """What was found for a block of rows; partners: how many were held in memory; close: how many of these called for
+    close work."""
+
+    found: T
+    partners: int
+    close: int
+
+
+def in_blocks(rows: Ints, pairs: int, partners: int, look: Callable[[Ints], Block[T]]) -> tuple[list[T], int]:
+    """What look finds for one block of rows (k,) after the other, and how many of the rows were looked at before more
+    than the budget's pairs had called for close work. partners: no row has more."""
+    found: list[T] = []
+    done, size, close = 0, max(FIRST_BLOCK, min(PARTNERS_AT_ONCE, pairs) // max(partners, 1)), 0
+    most = max(pairs, len(rows) * (pairs // PAIRS_OF_EACH))
+    while done < len(rows) and close <= most:
+        may_stop()
+        block = look(rows[done : done + size])
+        found.append(block.found)
+        done = min(done + size, len(rows))
+        close += block.close
+        # The next block may have more partners than this one had: it grows slowly.
+        size = max(1, min(FASTER * size, int(size * min(PARTNERS_AT_ONCE, most) / max(block.partners, 1))))
+    return found, done

@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.geometry.radix import radix_order
+from vectorplot.geometry.ragged import radix_order
 
 
 def dot(a: Floats, b: Floats) -> Floats:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from vectorplot.arrays import Floats, Ints
-from vectorplot.geometry.radix import radix_order
+from vectorplot.geometry.ragged import radix_order
 
 BITS = 40
 """Parameters are compared in steps of 2^-40 when deciding whether intervals touch."""

@@ -240,7 +240,7 @@ def _unfolded(net: Net, parent: Ints, edge: Ints, tolerance: float) -> Net:
     there, here = b - a, near_b - near_a
     size = np.maximum(norm(there) * norm(here), LEAST_DIVISOR)
     cosine = component_sum(there * here) / size
-    sine = (here[:, 0] * there[:, 1] - here[:, 1] * there[:, 0]) / size
+    sine = cross(here, there) / size
     turns[hanging] = np.stack([cosine, sine], axis=1)
     middle = (near_a + near_b) / 2.0
     shifts[hanging] = (a + b) / 2.0 - turned(turns[hanging], middle)

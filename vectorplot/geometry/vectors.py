@@ -12,7 +12,7 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from vectorplot.arrays import Bools, Floats
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.geometry.elementary import arctan2
 from vectorplot.tolerances import ROUNDING
@@ -136,6 +136,16 @@ def normalize(vectors: ArrayLike, *, magnitude: ArrayLike = 0.0) -> Floats:
     # The first division keeps the second away from overflow and underflow.
     v = v / largest_component(v)[..., None]
     return np.asarray(v / norm(v)[..., None])
+
+
+def summed_by(number: Ints, vectors: Floats, count: int) -> Floats:
+    """(count,k) the sums of the vectors (n,k) that have each number (n,)."""
+    return np.stack([np.bincount(number, column, count) for column in vectors.T], axis=1)
+
+
+def snapped(values: Floats, noise: ArrayLike) -> Floats:
+    """(...) values, 0 in place of those no larger than what rounding makes; NaN stays."""
+    return np.where(np.abs(values) <= noise, 0.0, values)
 
 
 def point_on_line(p: ArrayLike, q: ArrayLike, parameter: ArrayLike) -> Floats:

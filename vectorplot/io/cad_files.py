@@ -21,7 +21,7 @@ from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.budget import may_stop
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.vectors import cross, dot, norm
+from vectorplot.geometry.vectors import cross, dot, norm, summed_by
 from vectorplot.geometry.weld import distinct_points
 from vectorplot.io.cad_faces import TANGENT_COSINE, NotMapped, body_faces, mean_curvatures
 from vectorplot.io.material_library import looks_of_colours
@@ -224,22 +224,17 @@ def _true_normals(body: CadBody, kinds: Ints, vertex: Ints, positions: Floats, k
     number = _united(body, kinds != EdgeKind.SHARP, np.arange(len(body.points)))
     first = np.unique(number, return_index=True)[1]
     corners, whole = number[body.triangles[kept]], vertex[first]
-    normals = _sums(number, body.normals, len(first))
+    normals = summed_by(number, body.normals, len(first))
     none = ~normals.any(axis=1)
     if none.any():
         # At the pole of a ball the triangles around it tell; at the tip of a cone there is none.
         areas = Mesh.from_triangles(positions[whole], corners).area_vectors
-        around, size = _sums(corners.ravel(), np.repeat(areas, 3, axis=0), len(first)), norm(areas)
+        around, size = summed_by(corners.ravel(), np.repeat(areas, 3, axis=0), len(first)), norm(areas)
         evenly = norm(around) >= np.cos(WIDEST_TURN) * np.bincount(corners.ravel(), np.repeat(size, 3), len(first))
         normals[none & evenly] = around[none & evenly]
     normals /= np.maximum(norm(normals), LEAST_DIVISOR)[:, None]
     several = np.bincount(whole, minlength=len(positions)) > 1
     return SurfaceNormals(Mesh.from_triangles(positions[whole], corners), normals, several[whole])
-
-
-def _sums(number: Ints, vectors: Floats, count: int) -> Floats:
-    """(count,3) the sum of the vectors (n,3) that have each number (n,)."""
-    return np.stack([np.bincount(number, part, count) for part in vectors.T], axis=1)
 
 
 # What OpenCASCADE reads. Its binding differs from version to version: 7.9 and 8.0 are known.

@@ -16,7 +16,7 @@ from vectorplot.errors import InputError, not_installed, printable
 from vectorplot.geometry import ragged
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.io.mesh_file import MeshFile, check_file, shown
-from vectorplot.scene.scales import Fields
+from vectorplot.scene.colour_scales import Fields
 from vectorplot.tolerances import SINGLE_ULP, ULP
 
 # Cells of finite elements, as other libraries keep them, as faces.

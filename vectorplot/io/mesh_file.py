@@ -16,8 +16,8 @@ from vectorplot.errors import InputError, printable
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.rotations import upright_turn
 from vectorplot.geometry.vectors import norm
+from vectorplot.scene.colour_scales import Fields
 from vectorplot.scene.face_looks import FaceLooks
-from vectorplot.scene.scales import Fields
 from vectorplot.scene.scene import Scene
 
 # Numbers written in text, converted in bulk: eight characters at a time, in integer arithmetic.

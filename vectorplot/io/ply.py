@@ -25,8 +25,8 @@ from vectorplot.io.mesh_file import (
     shown,
 )
 from vectorplot.io.off import face_corners
+from vectorplot.scene.colour_scales import Fields
 from vectorplot.scene.face_looks import FaceLooks
-from vectorplot.scene.scales import Fields
 from vectorplot.tolerances import SINGLE_ULP, ULP
 
 # The header of a PLY file: which elements follow, and which properties these have.

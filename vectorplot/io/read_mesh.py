@@ -15,10 +15,10 @@ from vectorplot.geometry import ragged
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.mesh_repair import Mending, is_closed_oriented, repaired, sound_parts
 from vectorplot.io.mesh_file import MeshFile, shown
+from vectorplot.scene.colour_scales import Fields
 from vectorplot.scene.extent import check_range
 from vectorplot.scene.face_looks import FaceLook, FaceLooks
 from vectorplot.scene.item import Item
-from vectorplot.scene.scales import Fields
 from vectorplot.scene.scene import Scene
 
 MESH_SUFFIXES = (".obj", ".off", ".ply", ".stl", ".glb", ".vtk", ".vtu")

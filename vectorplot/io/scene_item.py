@@ -39,11 +39,11 @@ from vectorplot.geometry.solids import (
 from vectorplot.geometry.winding import edge_uses, mesh_edges
 from vectorplot.io.scene_words import Words
 from vectorplot.io.surface_line_words import CurveDraft
+from vectorplot.scene.colour_scales import Fields
 from vectorplot.scene.face_looks import FaceLook, FaceLooks
 from vectorplot.scene.hatching import HATCHED_ALONG, HATCHED_BY, Hatching
 from vectorplot.scene.item import Item, Pattern
 from vectorplot.scene.material import Material
-from vectorplot.scene.scales import Fields
 from vectorplot.scene.surface_lines import NO_LINES, SurfaceLines
 from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_parametrised
 from vectorplot.tolerances import LARGEST

@@ -28,6 +28,7 @@ from vectorplot.scene.annotations import (
     thread,
     threaded_hole,
 )
+from vectorplot.scene.colour_scales import BoxAxes, Colouring, ScaleBar
 from vectorplot.scene.cuts import AWAY, AXES, Cut, Explosion
 from vectorplot.scene.labels import (
     DEFAULT_SIZE_MM,
@@ -46,7 +47,6 @@ from vectorplot.scene.light import Exposure, Light, check_exposure
 from vectorplot.scene.page import FIT, LENGTH, SCALE, Page, SheetSettings, length_mm, scale_ratio, sheet_size
 from vectorplot.scene.pens import CUES, FINEST_MM, LONGEST_MM, PEN_KINDS, WIDEST_MM, DepthCue, PenOverrides
 from vectorplot.scene.placement import fitted_page, page_at_scale, page_of_width
-from vectorplot.scene.scales import BoxAxes, Colouring, ScaleBar
 from vectorplot.scene.scene import Scene
 from vectorplot.words import COLOURS, STYLE_WORDS, is_colour, nearest
 

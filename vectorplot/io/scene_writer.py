@@ -25,6 +25,7 @@ from vectorplot.io.scene_item import hatch_text
 from vectorplot.io.scene_statements import ink_texts, sheet_text
 from vectorplot.io.scene_words import bare_word
 from vectorplot.io.shape_arguments import Formulas
+from vectorplot.scene.colour_scales import Colouring
 from vectorplot.scene.cuts import Cut
 from vectorplot.scene.item import Item, Pattern
 from vectorplot.scene.labels import Along, AtVertex, BesidePoint, Label, Measures, OnCurve, OnPage
@@ -32,7 +33,6 @@ from vectorplot.scene.light import Light
 from vectorplot.scene.material import FINISH_WORDS, Material
 from vectorplot.scene.page import Page, in_latex
 from vectorplot.scene.placement import FittedPage, PageAtScale, PageOfWidth
-from vectorplot.scene.scales import Colouring
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.surface_lines import NO_LINES, Roads, Serpentine, SurfaceLines, TerrainLines, WaterCourses
 from vectorplot.surfaces.capped_bodies import Capped, Frustum

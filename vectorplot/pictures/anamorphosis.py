@@ -18,7 +18,6 @@ from vectorplot.drawing.labels import NO_ITEM
 from vectorplot.drawing.letters import lettered
 from vectorplot.drawing.sheets import moved_mark
 from vectorplot.drawing.stroke_curves import CHORD_SHARE, curved_strokes, one_mark
-from vectorplot.effects.curved_mirrors import CurvedMirror
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.geometry import ragged
 from vectorplot.geometry.budget import may_stop, threads_of
@@ -35,7 +34,101 @@ from vectorplot.scene.page import Page
 from vectorplot.scene.placement import PageAtScale, page_of
 from vectorplot.scene.scene import Scene
 from vectorplot.tolerances import COINCIDENT_MM, LEAST_DIVISOR, LEAST_TOLERANCE_MM, NO_AZIMUTH_SINE
-from vectorplot.words import LineKind
+from vectorplot.words import LineKind, check_word
+
+# The mirror on the paper.
+
+MIRRORS = ("cylinder", "cone", "none")
+"""The kinds of mirrors; none: the paper itself is looked at, aslant."""
+
+
+@dataclass(frozen=True)
+class CurvedMirror:
+    """A mirror of revolution about the z axis that stands on the paper, the plane z = 0, in mm.
+
+    kind: one of MIRRORS; radius: of its foot; height: of its upper rim or its tip, infinite where a cylinder has none.
+    A cylinder and a cone are x^2 + y^2 = constant + linear z + square z^2. Errors: InputError for another kind, and a
+    cone that is no higher than wide: it sends what comes from above into the sky.
+    """
+
+    kind: str
+    radius: float
+    height: float
+
+    def __post_init__(self) -> None:
+        check_word("mirror", self.kind, MIRRORS)
+        if self.kind == "cone" and not self.radius < self.height < np.inf:
+            raise InputError(
+                f"mirror: a cone of radius {self.radius:g} mm, {self.height:g} mm high, is too flat to show the paper: "
+                f"make it higher than {self.radius:g} mm"
+            )
+
+    @property
+    def profile(self) -> tuple[float, float, float]:
+        """constant, linear and square."""
+        if self.kind == "cylinder":
+            return self.radius**2, 0.0, 0.0
+        slope = self.radius / self.height
+        return self.radius**2, -2.0 * slope * self.radius, slope**2
+
+    def seen(self, eye: Floats, ways: Floats) -> Floats:
+        """(k,3) where the ways (k,3) from an eye (3,) first meet the outside of the mirror; not finite where they miss
+        it. Without a mirror the eye itself: nothing turns the ways."""
+        if self.kind == "none":
+            return np.broadcast_to(eye, ways.shape)
+        constant, linear, square = self.profile
+        level = ways[:, :2]
+        with np.errstate(all="ignore"):
+            a = dot(level, level) - square * ways[:, 2] ** 2
+            b = dot(level, eye[:2]) - (0.5 * linear + square * eye[2]) * ways[:, 2]
+            c = float(dot(eye[:2], eye[:2])) - constant - linear * float(eye[2]) - square * float(eye[2]) ** 2
+            # The sum of two numbers of one sign: no digits are lost.
+            q = -(b + np.where(b < 0.0, -1.0, 1.0) * np.sqrt(b * b - a * c))
+            found = np.full(len(ways), np.inf)
+            for far in (q / a, c / q):
+                place = eye + far[:, None] * ways
+                good = (far > 0.0) & (place[:, 2] >= 0.0) & (place[:, 2] <= self.height)
+                good &= dot(ways, self.normals(place)) < 0.0
+                found = np.where(good & (far < found), far, found)
+            return np.asarray(np.where(np.isfinite(found)[:, None], eye + found[:, None] * ways, np.nan))
+
+    def normals(self, places: Floats) -> Floats:
+        """(k,3) vectors that point out of the mirror at places (k,3) of it, of no particular length."""
+        _, linear, square = self.profile
+        return np.column_stack([places[:, :2], -0.5 * linear - square * places[:, 2]])
+
+    def on_paper(self, eye: Floats, ways: Floats) -> Floats:
+        """(k,2) the points of the paper that are seen in the mirror along ways (k,3) from an eye (3,); not finite where
+        a way misses the mirror, or leads from it into the sky."""
+        return self.on_paper_with_slopes(eye, ways, np.zeros_like(ways))[0]
+
+    def on_paper_with_slopes(self, eye: Floats, ways: Floats, turns: Floats) -> tuple[Floats, Floats]:
+        """The same, and (k,2) how fast these points move where the ways change by turns (k,3)."""
+        place = self.seen(eye, ways)
+        with np.errstate(all="ignore"):
+            if self.kind == "none":
+                moved, ahead, turned = np.zeros_like(ways), ways, turns
+            else:
+                square = self.profile[2]
+                normal = self.normals(place)
+                facing, size = dot(ways, normal), dot(normal, normal)
+                far = (dot(place - eye, ways) / dot(ways, ways))[:, None]
+                # The place stays on the mirror: it moves across its normal.
+                along = -far[:, 0] * dot(normal, turns) / facing
+                moved = along[:, None] * ways + far * turns
+                bent = np.column_stack([moved[:, :2], -square * moved[:, 2]])
+                double = 2.0 * facing / size
+                faster = 2.0 * (dot(turns, normal) + dot(ways, bent) - double * dot(normal, bent)) / size
+                ahead = ways - double[:, None] * normal
+                turned = turns - faster[:, None] * normal - double[:, None] * bent
+            down = place[:, 2] / ahead[:, 2]
+            lower = (moved[:, 2] - down * turned[:, 2]) / ahead[:, 2]
+            points = place - down[:, None] * ahead
+            slopes = moved - lower[:, None] * ahead - down[:, None] * turned
+            lost = ~(ahead[:, 2] < 0.0)
+        points[lost], slopes[lost] = np.nan, np.nan
+        return points[:, :2], slopes[:, :2]
+
 
 VIEWER = {"cylinder": (0.0, -16.0, 14.0), "cone": (0.0, 0.0, 16.0)}
 """From where one looks into a mirror unless said otherwise, in radii of it."""
@@ -99,6 +192,87 @@ MARK_PEN = Pen(0.18)
 """What draws where the mirror and the eye are."""
 
 
+# What one looks into, and from where.
+
+
+@dataclass(frozen=True)
+class AnamorphicMirror:
+    """The mirror that unbends an anamorphosis, from where one looks into it, and how large the picture seems in it.
+
+    Parameters
+    ----------
+    kind : {"cylinder", "cone", "none"}
+        A cylinder that stands on the paper, a cone that is looked at from above its tip, or no mirror: then the paper
+        is looked at from a low eye, aslant.
+    radius_mm : float
+        Of the foot of the mirror.
+    height_mm : float, optional
+        Of the mirror: where None a cylinder is as high as it has to be, which the drawing says, and a cone is twice as
+        high as its radius.
+    viewer : (3,) sequence of float, optional
+        The eye, in mm from the middle of the mirror's foot: to the right, away from the lower edge of the page, and
+        above the paper; where None (0, -16, 14) radii for a cylinder, (0, 0, 16) for a cone, and (0, -400, 150) mm
+        without a mirror.
+    seen_mm : float, optional
+        How long the longer side of the picture seems to be, where it seems to stand in the axis of the mirror; where
+        None as suits the mirror.
+
+    Raises
+    ------
+    InputError
+        For another kind, lengths that are not positive, a cone not higher than its radius, and an eye that cannot look
+        into the mirror.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> vp.AnamorphicMirror("cone", radius_mm=20).eye.tolist()
+    [0.0, 0.0, 320.0]
+    """
+
+    kind: str = "cylinder"
+    radius_mm: float = 25.0
+    height_mm: float | None = None
+    viewer: Sequence[float] | None = None
+    seen_mm: float | None = None
+
+    def __post_init__(self) -> None:
+        check_options({"mirror": self.kind, **vars(self)})
+        for name, value in (("radius", self.radius_mm), ("height", self.height_mm)):
+            if value is not None and not 0.0 < value <= MOST_MM:
+                raise InputError(f"mirror: expected a positive {name} of at most {MOST_MM:.0f} mm, got {value:g}")
+        mirror, eye = self.curved, self.eye
+        if eye.shape != (3,) or not (np.abs(eye) <= MOST_MM).all():
+            raise InputError(f"viewer: expected three finite numbers of mm, at most {MOST_MM:.0f}, got {self.viewer!r}")
+        shown = ",".join(f"{value:g}" for value in eye.tolist())
+        if not eye[2] > 0.0:
+            raise InputError(f"viewer {shown}: expected an eye above the paper, at a height of more than 0 mm")
+        if mirror.kind == "cylinder" and float(norm(eye[:2])) <= mirror.radius:
+            raise InputError(
+                f"viewer {shown}: expected an eye beside the cylinder, more than {mirror.radius:g} mm off its axis"
+            )
+        if mirror.kind == "cone" and not eye[2] > mirror.height:
+            raise InputError(
+                f"viewer {shown}: expected an eye above the tip of the cone, higher than {mirror.height:g} mm"
+            )
+
+    @property
+    def curved(self) -> CurvedMirror:
+        """The mirror itself, with its usual height where none is given."""
+        usual = CONE_HEIGHT * self.radius_mm if self.kind == "cone" else np.inf
+        return CurvedMirror(self.kind, self.radius_mm, usual if self.height_mm is None else self.height_mm)
+
+    @property
+    def eye(self) -> Floats:
+        """(3,) from where one looks."""
+        if self.viewer is None:
+            return np.array(VIEWER_MM) if self.kind == "none" else self.radius_mm * np.array(VIEWER[self.kind])
+        try:
+            return np.asarray(self.viewer, dtype=np.float64)
+        except (TypeError, ValueError):
+            return np.zeros(0)
+
+
 # Where the picture seems to stand.
 
 
@@ -151,44 +325,9 @@ class Setting:
         x, y = (self.slopes(points, np.broadcast_to(axis, points.shape)) for axis in np.eye(2))
         # The larger singular value of the matrix with these columns.
         half = 0.5 * (dot(x, x) + dot(y, y))
-        area = x[:, 0] * y[:, 1] - x[:, 1] * y[:, 0]
+        area = cross(x, y)
         squares = half + np.sqrt(np.maximum(half * half - area * area, 0.0))
         return float(np.sqrt(squares.max(initial=0.0)))
-
-
-def _mirror(kind: str, radius_mm: float, height_mm: float | None) -> CurvedMirror:
-    """The mirror with its usual height where none is given. Errors: InputError as in CurvedMirror, and for lengths that
-    are not positive."""
-    for name, value in (("radius", radius_mm), ("height", height_mm)):
-        if value is not None and not 0.0 < value <= MOST_MM:
-            raise InputError(f"mirror: expected a positive {name} of at most {MOST_MM:.0f} mm, got {value:g}")
-    usual = CONE_HEIGHT * radius_mm if kind == "cone" else np.inf
-    return CurvedMirror(kind, radius_mm, usual if height_mm is None else height_mm)
-
-
-def _eye(viewer: Sequence[float] | None, mirror: CurvedMirror) -> Floats:
-    """(3,) from where one looks. Errors: InputError where one cannot look into the mirror from there."""
-    if viewer is None:
-        return np.array(VIEWER_MM if mirror.kind == "none" else VIEWER[mirror.kind]) * (
-            1.0 if mirror.kind == "none" else mirror.radius
-        )
-    try:
-        eye = np.asarray(viewer, dtype=np.float64)
-    except (TypeError, ValueError):
-        eye = np.zeros(0)
-    if eye.shape != (3,) or not (np.abs(eye) <= MOST_MM).all():
-        raise InputError(f"viewer: expected three finite numbers of mm, at most {MOST_MM:.0f}, got {viewer!r}")
-    shown = ",".join(f"{value:g}" for value in eye.tolist())
-    if not eye[2] > 0.0:
-        raise InputError(f"viewer {shown}: expected an eye above the paper, at a height of more than 0 mm")
-    away = float(norm(eye[:2]))
-    if mirror.kind == "cylinder" and away <= mirror.radius:
-        raise InputError(
-            f"viewer {shown}: expected an eye beside the cylinder, more than {mirror.radius:g} mm off its axis"
-        )
-    if mirror.kind == "cone" and not eye[2] > mirror.height:
-        raise InputError(f"viewer {shown}: expected an eye above the tip of the cone, higher than {mirror.height:g} mm")
-    return eye
 
 
 def _fitted(mirror: CurvedMirror, eye: Floats, outline: Floats, seen_mm: float | None) -> Setting:
@@ -523,11 +662,7 @@ def anamorphosis(
     picture: object,
     camera: Camera | None = None,
     *,
-    mirror: str = "cylinder",
-    radius_mm: float = 25.0,
-    height_mm: float | None = None,
-    viewer: Sequence[float] | None = None,
-    seen_mm: float | None = None,
+    mirror: AnamorphicMirror | str = "cylinder",
     page: Page | str | None = None,
     curves: str = "bezier",
     tolerance_mm: float = 0.02,
@@ -545,21 +680,8 @@ def anamorphosis(
         else is drawn first, see `draw`.
     camera : Camera, optional
         How a scene is drawn.
-    mirror : {"cylinder", "cone", "none"}
-        A cylinder that stands on the paper, a cone that is looked at from above its tip, or no mirror: then the paper
-        is looked at from a low eye, aslant.
-    radius_mm : float
-        Of the foot of the mirror.
-    height_mm : float, optional
-        Of the mirror: where None a cylinder is as high as it has to be, which the drawing says, and a cone is twice as
-        high as its radius.
-    viewer : (3,) sequence of float, optional
-        The eye, in mm from the middle of the mirror's foot: to the right, away from the lower edge of the page, and
-        above the paper; where None (0, -16, 14) radii for a cylinder, (0, 0, 16) for a cone, and (0, -400, 150) mm
-        without a mirror.
-    seen_mm : float, optional
-        How long the longer side of the picture seems to be, where it seems to stand in the axis of the mirror; where
-        None as suits the mirror.
+    mirror : AnamorphicMirror or {"cylinder", "cone", "none"}
+        What the drawing is laid around, and from where one looks into it; or what kind of mirror that is.
     page : Page or str, optional
         Or its name or size; where None a page as large as the drawing, with a margin.
     curves : {"bezier", "polyline", "arcs"}
@@ -583,9 +705,8 @@ def anamorphosis(
     ------
     InputError
         See `draw`.
-        For an eye that cannot look into the mirror, a cone not higher than its radius, and a picture without strokes
-        and polygons; for a picture larger than the mirror shows, with how large it may be; for a drawing that does not
-        fit the page.
+        For a picture without strokes and polygons, or larger than the mirror shows, with how large it may be; for a
+        drawing that does not fit the page.
 
     Warns
     -----
@@ -606,22 +727,15 @@ def anamorphosis(
     --------
     >>> import vectorplot as vp
     >>> from vectorplot import geometry
-    >>> laid = vp.anamorphosis(geometry.box((2, 2, 2)), radius_mm=20)
+    >>> laid = vp.anamorphosis(geometry.box((2, 2, 2)), mirror=vp.AnamorphicMirror(radius_mm=20))
     >>> [layer.name for layer in laid.layers if len(layer.strokes[0])]
     ['visible', 'contour', 'mirror', 'viewer', 'notes']
     """
     check_options(locals())
-    how = {"curves": curves, "budget": budget, "jobs": jobs, "explain": explain}
-    drawn = picture_of(picture, camera, **how)
-    setting: dict[str, Any] = {
-        "mirror": mirror,
-        "radius_mm": radius_mm,
-        "height_mm": height_mm,
-        "viewer": viewer,
-        "seen_mm": seen_mm,
-    }
+    drawn = picture_of(picture, camera, curves=curves, budget=budget, jobs=jobs, explain=explain)
+    glass = AnamorphicMirror(mirror) if isinstance(mirror, str) else mirror
     work: dict[str, Any] = {"jobs": jobs, "progress": progress, "explain": explain}
-    return anamorphosis_of(drawn, on_page, **setting, page=page, curves=curves, tolerance_mm=tolerance_mm, **work)
+    return anamorphosis_of(drawn, on_page, glass, page=page, curves=curves, tolerance_mm=tolerance_mm, **work)
 
 
 @stoppable
@@ -629,11 +743,7 @@ def anamorphosis_view(
     picture: object,
     camera: Camera | None = None,
     *,
-    mirror: str = "cylinder",
-    radius_mm: float = 25.0,
-    height_mm: float | None = None,
-    viewer: Sequence[float] | None = None,
-    seen_mm: float | None = None,
+    mirror: AnamorphicMirror | str = "cylinder",
     page: Page | str | None = None,
     curves: str = "bezier",
     tolerance_mm: float = 0.02,
@@ -650,9 +760,7 @@ def anamorphosis_view(
         See `anamorphosis`.
     camera : Camera, optional
         See `anamorphosis`.
-    mirror, radius_mm, height_mm, viewer, seen_mm : see anamorphosis
-        Where they are not told they are what they are there.
-    page, curves, tolerance_mm, budget, jobs, progress, explain : see anamorphosis
+    mirror, page, curves, tolerance_mm, budget, jobs, progress, explain : see anamorphosis
         The picture in the mirror has the size that it seems to have there.
 
     Returns
@@ -675,22 +783,15 @@ def anamorphosis_view(
     --------
     >>> import vectorplot as vp
     >>> from vectorplot import geometry
-    >>> seen = vp.anamorphosis_view(geometry.box((2, 2, 2)), radius_mm=20)
+    >>> seen = vp.anamorphosis_view(geometry.box((2, 2, 2)), mirror=vp.AnamorphicMirror(radius_mm=20))
     >>> [layer.name for layer in seen.layers if len(layer.strokes[0])]
     ['paper visible', 'paper contour', 'visible', 'contour', 'mirror']
     """
     check_options(locals())
-    how = {"curves": curves, "budget": budget, "jobs": jobs, "explain": explain}
-    drawn = picture_of(picture, camera, **how)
-    setting: dict[str, Any] = {
-        "mirror": mirror,
-        "radius_mm": radius_mm,
-        "height_mm": height_mm,
-        "viewer": viewer,
-        "seen_mm": seen_mm,
-    }
+    drawn = picture_of(picture, camera, curves=curves, budget=budget, jobs=jobs, explain=explain)
+    glass = AnamorphicMirror(mirror) if isinstance(mirror, str) else mirror
     work: dict[str, Any] = {"jobs": jobs, "progress": progress, "explain": explain}
-    return anamorphosis_of(drawn, as_seen, **setting, page=page, curves=curves, tolerance_mm=tolerance_mm, **work)
+    return anamorphosis_of(drawn, as_seen, glass, page=page, curves=curves, tolerance_mm=tolerance_mm, **work)
 
 
 Progress = Callable[[str, float], None]
@@ -721,12 +822,8 @@ Laid = Callable[[Drawing, Setting, Page | str | None, float, bool], Drawing]
 def anamorphosis_of(
     drawn: Drawn,
     laid: Laid,
+    mirror: AnamorphicMirror,
     *,
-    mirror: str,
-    radius_mm: float,
-    height_mm: float | None,
-    viewer: Sequence[float] | None,
-    seen_mm: float | None,
     page: Page | str | None,
     curves: str,
     tolerance_mm: float,
@@ -735,26 +832,20 @@ def anamorphosis_of(
     explain: Callable[[StageReport], None] | None,
 ) -> Drawing:
     """What is laid on a page of the anamorphosis of what is drawn for it; all else as in `anamorphosis`."""
-    glass = _mirror(mirror, radius_mm, height_mm)
-    eye = _eye(viewer, glass)
-    stages = [Stage("picture", "what is to be seen"), Stage("paper", f"mirror: {mirror}")]
+    stages = [Stage("picture", "what is to be seen"), Stage("paper", f"mirror: {mirror.kind}")]
     pipeline = Pipeline(stages, explain, progress, threads_of(jobs))
     done = pipeline.fraction("picture")
     inner = None if progress is None else lambda _, part: done(part)
-    shown, setting = pipeline.run("picture", _shown, drawn, glass, eye, seen_mm, tolerance_mm, inner)
+    shown, setting = pipeline.run("picture", _shown, drawn, mirror, tolerance_mm, inner)
     how = (page, (1.0 - OF_DRAWING) * tolerance_mm, curves != "polyline")
     return pipeline.run("paper", laid, shown, setting, *how)
 
 
 def _shown(
-    drawn: Drawn,
-    mirror: CurvedMirror,
-    eye: Floats,
-    seen_mm: float | None,
-    tolerance_mm: float,
-    progress: Progress | None,
+    drawn: Drawn, looking: AnamorphicMirror, tolerance_mm: float, progress: Progress | None
 ) -> tuple[Drawing, Setting]:
     """The drawing, as fine as the paper enlarges it, and how it is looked at."""
+    mirror, eye, seen_mm = looking.curved, looking.eye, looking.seen_mm
     side = seen_mm or 2.0 * (OF_DISTANCE * float(norm(eye)) if mirror.kind == "none" else mirror.radius)
     enlarged = ENLARGED
     while True:

@@ -8,7 +8,7 @@ from functools import partial
 from typing import Literal
 
 from vectorplot.drawing.drawing import Drawing, Paths
-from vectorplot.drawing.pen_layers import layer_words, layers_asked, line_list, pen_scale
+from vectorplot.drawing.layers import layer_words, layers_asked, line_list, pen_scale
 from vectorplot.drawing.pens import Pens, Style, pen_rules, style_of_scene
 from vectorplot.drawing.stroke_curves import rounding_error_mm, with_round_polygons
 from vectorplot.geometry.budget import budget_of, threads_of

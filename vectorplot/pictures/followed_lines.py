@@ -214,7 +214,7 @@ def _sampled(
     with np.errstate(invalid="ignore", divide="ignore"):
         aside = cross(normals, way / norm(way)[:, None])
         along, across = (on_page(samples, each, placement.page_from_world) for each in (way, aside))
-        wide = apart * np.abs(along[:, 0] * across[:, 1] - along[:, 1] * across[:, 0]) / np.linalg.norm(along, axis=1)
+        wide = apart * np.abs(cross(along, across)) / np.linalg.norm(along, axis=1)
     wide = np.nan_to_num(wide, nan=0.0, posinf=0.0)
     where = np.concatenate([samples, SIDES * apart * np.nan_to_num(normals)], axis=1)
     return FlowingLines(curves, samples, line, wide, place_ranks(where, line, steps[at] / count[at], apart, area))

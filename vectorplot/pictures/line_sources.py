@@ -28,6 +28,7 @@ from vectorplot.visibility.polyhedra.hidden_lines import (
     Segments,
     Visibility,
     counted_parts,
+    unhidden,
     visible_parts,
     with_whole_lines,
 )
@@ -164,7 +165,7 @@ def _seen_among_balls(pipeline: Pipeline, stage: str, view: View) -> Seen:
     from vectorplot.visibility.quadrics import hidden_intervals
 
     if pipeline.calls_for("all lines"):
-        return lambda bodies, arcs, sides: hidden_intervals.whole_arcs(arcs)
+        return lambda bodies, arcs, sides: unhidden(arcs)
     done = pipeline.fraction(stage)
     if pipeline.calls_for("visible lines"):
         return partial(hidden_intervals.visible_arcs, progress=done)
@@ -189,9 +190,7 @@ def behind_balls(pipeline: Pipeline, view: View, forms: ClosedForms | None, line
 def seen_parts(pipeline: Pipeline, view: View, faces: ProjectedFaces, solid: Bools, lines: Lines) -> Visibility:
     """The visible parts of lines, all their parts counted, or whole lines, as the plan has it."""
     if pipeline.calls_for("all lines"):
-        from vectorplot.effects.depth_cues import all_lines
-
-        return pipeline.run("all lines", all_lines, lines)
+        return pipeline.run("all lines", unhidden, lines)
     over = lines.kind == LineKind.CENTRE
     if over.any():
         rest = seen_parts(pipeline, view, faces, solid, lines.take(~over))

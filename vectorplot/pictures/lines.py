@@ -23,17 +23,19 @@ from vectorplot.drawing.finishing import (
     without_short,
     without_specks,
 )
-from vectorplot.drawing.layers import BLACK, FRAME_PEN, ink, layers_of, letter_pen, shown_items
-from vectorplot.drawing.pen_layers import (
+from vectorplot.drawing.layers import (
     layer_words,
+    layers_of,
+    letter_pen,
     looked_at_only,
     not_plotted,
     one_for_each_pen,
     pen_scale,
     sheet_layer,
+    shown_items,
     sorted_layers,
 )
-from vectorplot.drawing.pens import PenRule, frame_pen, pen_of, rules_by_target, scaled_pen
+from vectorplot.drawing.pens import BLACK, FRAME_PEN, PenRule, frame_pen, ink, pen_of, rules_by_target, scaled_pen
 from vectorplot.drawing.strokes import chosen, concatenated
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.geometry import ragged

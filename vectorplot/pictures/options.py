@@ -150,7 +150,12 @@ OPTIONS: dict[str, Option] = {
     "smooth": _YES,
     "tabs_mm": _number("tabs of {:g} mm", 0.0),
     "numbers": _YES,
-    "mirror": _word("cylinder", "cone", "none"),
+    "mirror": Option(
+        "an AnamorphicMirror or a text such as 'cone'",
+        _is_a("AnamorphicMirror"),
+        optional=False,
+        words=("cylinder", "cone", "none"),
+    ),
     "radius_mm": _number("a mirror with a radius of {:g} mm", 0.0),
     "height_mm": _number("a mirror {:g} mm high", 0.0, optional=True),
     "seen_mm": _number("a picture of {:g} mm", 0.0, optional=True),

@@ -11,9 +11,8 @@ import numpy as np
 from vectorplot.arrays import Floats
 from vectorplot.drawing.drawing import Drawing, Layer, Paths
 from vectorplot.drawing.fills import Colours, FillKind, Fills
-from vectorplot.drawing.layers import letter_pen
+from vectorplot.drawing.layers import letter_pen, overlaid_pens
 from vectorplot.drawing.painted_fills import fills_on_page, placement_of_faces
-from vectorplot.drawing.pen_layers import overlaid_pens
 from vectorplot.drawing.pens import Pens, Style, check_targets
 from vectorplot.errors import InputError
 from vectorplot.geometry.budget import budget_of, threads_of

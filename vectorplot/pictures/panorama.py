@@ -13,9 +13,8 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.drawing import NO_CURVE, Drawing, Layer, Paths
 from vectorplot.drawing.labels import NO_ITEM, seen_labels
-from vectorplot.drawing.layers import shown_items
+from vectorplot.drawing.layers import layers_asked, line_list, shown_items, sorted_layers
 from vectorplot.drawing.letters import lettered
-from vectorplot.drawing.pen_layers import layers_asked, line_list, sorted_layers
 from vectorplot.drawing.pens import Pens, Style, pen_rules, style_of_scene
 from vectorplot.drawing.strokes import chosen, concatenated
 from vectorplot.errors import InputError

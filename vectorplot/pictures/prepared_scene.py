@@ -11,7 +11,7 @@ import numpy as np
 
 from vectorplot.arrays import Floats
 from vectorplot.drawing.drawing import Drawing, Layer, Pen
-from vectorplot.drawing.layers import FRAME_PEN
+from vectorplot.drawing.pens import FRAME_PEN
 from vectorplot.errors import InputWarning
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
@@ -20,12 +20,12 @@ from vectorplot.io.anything import scene_of
 from vectorplot.pictures.pipeline import Pipeline, StageReport
 from vectorplot.pictures.plan import plan_cuts
 from vectorplot.scene.annotations import LabelAnchors, label_anchors
+from vectorplot.scene.colour_scales import ScaleBar
 from vectorplot.scene.item import Item
 from vectorplot.scene.light import Exposure, Light
 from vectorplot.scene.page import Page
 from vectorplot.scene.pens import DepthCue, depth_cue_of
 from vectorplot.scene.placement import FittedPage, Placement, allowed_in_space, camera_of, fitted_with_room
-from vectorplot.scene.scales import ScaleBar
 from vectorplot.scene.scene import Scene, tell_what_is_cut_off
 from vectorplot.scene.view import View, without_seams
 from vectorplot.tolerances import OFF_PAGE_MM

@@ -11,7 +11,7 @@ import numpy as np
 
 from vectorplot.drawing.drawing import Pen
 from vectorplot.drawing.finishing import chain_lines_dashed, long_strokes, with_dashes
-from vectorplot.drawing.pen_layers import overlaid_pens
+from vectorplot.drawing.layers import overlaid_pens
 from vectorplot.drawing.pens import Pens, Style, check_targets, scaled_pen
 from vectorplot.errors import InputWarning
 from vectorplot.features.edge_splitting import Within

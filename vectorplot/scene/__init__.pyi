@@ -1,11 +1,11 @@
 from .added_lines import even_sections, round_sections, with_lines
 from .annotations import field_arrows
+from .colour_scales import BoxAxes, Colouring, Fields, ScaleBar
 from .cuts import Cut, CutPlane
 from .face_looks import FaceLook, FaceLooks
 from .item import SurfaceNormals
 from .page import SheetSettings
 from .pens import DepthCue, PenOverrides
-from .scales import BoxAxes, Colouring, Fields, ScaleBar
 from .subdivided import subdivided_item
 from .surface_lines import (
     FieldContours,

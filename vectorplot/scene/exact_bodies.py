@@ -13,9 +13,6 @@ from vectorplot.scene.scene import Scene
 from vectorplot.scene.surface_lines import SurfaceLines
 from vectorplot.words import LineKind
 
-EXACT_KINDS = frozenset({LineKind.CONTOUR, LineKind.BOUNDARY, LineKind.CREASE, LineKind.TANGENT, LineKind.INTERSECTION})
-"""The kinds of lines that surfaces of bodies have; all others are those of triangles."""
-
 
 def exact_bodies(scene: Scene, kinds: Set[LineKind], hatch: Hatching | Stippling | None) -> Scene:
     """The scene with the surfaces of bodies in place of their triangles, where these are as they were read and only

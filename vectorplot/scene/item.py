@@ -17,10 +17,10 @@ from vectorplot.geometry.mesh_cuts import HalfSpaces
 from vectorplot.geometry.rotations import Movable
 from vectorplot.geometry.triangles import PlacedTriangles
 from vectorplot.geometry.vectors import norm
+from vectorplot.scene.colour_scales import Fields
 from vectorplot.scene.face_looks import FaceLooks
 from vectorplot.scene.hatching import Hatching
 from vectorplot.scene.material import Material
-from vectorplot.scene.scales import Fields
 from vectorplot.scene.surface_lines import NO_LINES, SurfaceLines, linear_growth
 from vectorplot.surfaces.placed_surface import placed_shape
 from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_parametrised

@@ -19,6 +19,7 @@ from vectorplot.errors import InputError, InputWarning
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.rotations import Movable
+from vectorplot.scene.colour_scales import BoxAxes, Colouring, ScaleBar
 from vectorplot.scene.cuts import Cut, Explosion
 from vectorplot.scene.extent import bounds_of_surfaces, in_range, smooth_bounds
 from vectorplot.scene.item import Item
@@ -26,7 +27,6 @@ from vectorplot.scene.labels import Label, Measures, renamed
 from vectorplot.scene.light import Exposure, Light, check_exposure
 from vectorplot.scene.page import Page, SheetSettings
 from vectorplot.scene.pens import DepthCue, PenOverrides
-from vectorplot.scene.scales import BoxAxes, Colouring, ScaleBar
 from vectorplot.surfaces.capped_bodies import ball_of, bounds_of_balls, bounds_of_capped_quadrics, capped_quadric_of
 from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_implicit, is_parametrised
 from vectorplot.words import check_colour

@@ -11,9 +11,9 @@ from vectorplot.errors import InputError
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.mesh_repair import chosen_faces
 from vectorplot.geometry.vectors import norm
+from vectorplot.scene.colour_scales import Fields
 from vectorplot.scene.face_looks import FaceLooks
 from vectorplot.scene.item import Item, SurfaceNormals
-from vectorplot.scene.scales import Fields
 from vectorplot.scene.scene import Scene
 from vectorplot.surfaces.subdivision import LimitPlaces, SubdivisionSurface
 from vectorplot.tolerances import SAG_OF_LIMIT

@@ -16,6 +16,7 @@ from vectorplot.arrays import Floats
 from vectorplot.errors import InputError
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.convex_polygons import convex_hull
+from vectorplot.geometry.vectors import cross
 from vectorplot.tolerances import ZERO_OF_EXTENT
 
 FOCUS_LINE = 0.8
@@ -176,7 +177,7 @@ def focus_area(matrix: Floats, focus_points: ArrayLike) -> float:
     p = projective_images(matrix, focus_points)
     hull = p[convex_hull(p)]
     after = np.roll(hull, -1, axis=0)
-    return float((hull[:, 0] * after[:, 1] - hull[:, 1] * after[:, 0]).sum()) / 8.0
+    return float(cross(hull, after).sum()) / 8.0
 
 
 def searched_line(points: ArrayLike, axis: Axis, focus: float, focus_points: ArrayLike) -> float:

@@ -279,9 +279,6 @@ class Frustum(EllipticSections):
     def _ellipse(self) -> tuple[float, float]:
         return 1.0, 1.0
 
-    def _middle(self) -> Floats:
-        return np.asarray(self.centre)
-
     def _profile(self, v: Floats) -> Profile:
         zero, part = np.zeros_like(v), v / self.height
         slope = (self.top_radius - self.radius) / self.height

@@ -114,7 +114,7 @@ def bounds_of_many(many: Sequence[Sequence[Floats]]) -> Floats:
     parts, of = monotone(control)
     np.minimum.at(low, of, parts[:, 0])
     np.maximum.at(high, of, parts[:, 0])
-    return np.stack([np.minimum.reduceat(low, first), np.maximum.reduceat(high, first)], axis=1)
+    return np.asarray(np.stack([np.minimum.reduceat(low, first), np.maximum.reduceat(high, first)], axis=1))
 
 
 def monotone(control: Floats) -> tuple[Floats, Ints]:

@@ -241,9 +241,10 @@ class EllipticSections(MovableSurface):
     def _ellipse(self) -> tuple[float | Floats, float | Floats]:
         """Semi-axes a, b of the ellipse."""
 
-    @abstractmethod
     def _middle(self) -> Floats:
         """(3,) centre."""
+        own: Any = self
+        return np.asarray(own.centre)
 
     @abstractmethod
     def _profile(self, v: Floats) -> Profile:
@@ -326,9 +327,6 @@ class OnSemiAxes(EllipticSections):
     def _ellipse(self) -> tuple[float | Floats, float | Floats]:
         axes = np.asarray(self.semi_axes)
         return axes[..., 0], axes[..., 1]
-
-    def _middle(self) -> Floats:
-        return np.asarray(self.centre)
 
 
 # Spheres and ellipsoids.
@@ -437,9 +435,6 @@ class Sphere(EllipticSections):
     def _ellipse(self) -> tuple[float | Floats, float | Floats]:
         return self.radius, self.radius
 
-    def _middle(self) -> Floats:
-        return np.asarray(self.centre)
-
     def _profile(self, v: Floats) -> Profile:
         cosine, sine = np.cos(v), self.radius * np.sin(v)
         return (cosine, sine), (-np.sin(v), self.radius * cosine), (-cosine, -sine)
@@ -506,9 +501,6 @@ class Cylinder(EllipticSections):
 
     def _ellipse(self) -> tuple[float, float]:
         return self.radius, self.radius if self.depth is None else self.depth
-
-    def _middle(self) -> Floats:
-        return np.asarray(self.centre)
 
     def _profile(self, v: Floats) -> Profile:
         zero = np.zeros_like(v)
@@ -587,9 +579,6 @@ class Cone(EllipticSections):
 
     def _ellipse(self) -> tuple[float, float]:
         return self.slope, self.slope if self.depth_slope is None else self.depth_slope
-
-    def _middle(self) -> Floats:
-        return np.asarray(self.centre)
 
     def _profile(self, v: Floats) -> Profile:
         zero = np.zeros_like(v)
@@ -762,9 +751,6 @@ class Paraboloid(EllipticSections):
 
     def _ellipse(self) -> tuple[float | Floats, float | Floats]:
         return self.a, self.b
-
-    def _middle(self) -> Floats:
-        return np.asarray(self.centre)
 
     def _profile(self, v: Floats) -> Profile:
         zero = np.zeros_like(v)

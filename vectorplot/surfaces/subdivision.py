@@ -21,7 +21,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.geometry.algebra import determinant, matmul
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.vectors import cross, dot, norm
+from vectorplot.geometry.vectors import cross, dot, norm, summed_by
 from vectorplot.geometry.weld import chained
 from vectorplot.tolerances import BESIDE_BORDER, LEAST_DIVISOR, LIMIT_OF_LEVELS
 from vectorplot.words import unknown
@@ -197,16 +197,11 @@ def _kinds(vertex: Ints, fan: Ints, cut: Bools, sharp: Ints) -> Ints:
 # One step of subdivision, of a whole net.
 
 
-def _sums(number: Ints, vectors: Floats, count: int) -> Floats:
-    """(count,3) the sums of the vectors (k,3) with each number (k,)."""
-    return np.stack([np.bincount(number, column, count) for column in vectors.T], axis=1)
-
-
 def _moved(net: _Net, smooth: Floats) -> Floats:
     """(n,3) the vertices after a step, those that are smooth or darts at points (n,3)."""
     p, cut = net.points, np.flatnonzero(net.is_cut)
     start, end = net.corner[cut], net.end[cut]
-    beside = _sums(start, p[end], len(p)) + _sums(end, p[start], len(p))
+    beside = summed_by(start, p[end], len(p)) + summed_by(end, p[start], len(p))
     result = smooth.copy()
     border, corner = net.kind == VertexKind.BORDER, net.kind == VertexKind.CORNER
     result[border] = (6.0 * p[border] + beside[border]) / 8.0
@@ -226,13 +221,13 @@ def _catmull_clark(net: _Net) -> _Net:
     """
     p, corner, end, face, cut = net.points, net.corner, net.end, net.face, net.is_cut
     n, faces, size = len(p), len(net.source), np.bincount(face, minlength=len(net.source))
-    middle = _sums(face, p[corner], faces) / size[:, None]
+    middle = summed_by(face, p[corner], faces) / size[:, None]
     number, own = net.sides
     both = p[corner[own]] + p[end[own]]
     inner = both + (middle[face[own]] + middle[face[net.opposite[own]]])
     on_edges = np.where(cut[own, None], 0.5 * both, 0.25 * inner)
     around = net.faces_around[:, None].astype(np.float64)
-    beside = _sums(corner, p[end], n) + _sums(corner, middle[face], n)
+    beside = summed_by(corner, p[end], n) + summed_by(corner, middle[face], n)
     moved = _moved(net, (around - 2.0) / around * p + beside / (around * around))
     here, rows = np.arange(len(corner)), len(own)
     first, second = _halves(net)
@@ -276,7 +271,7 @@ def _loop(net: _Net) -> _Net:
     across = p[corner[net.before[own]]] + p[corner[net.before[net.opposite[own]]]]
     on_edges = np.where(cut[own, None], 0.5 * both, 0.375 * both + 0.125 * across)
     beta = _loop_weights(net.faces_around)[:, None]
-    moved = _moved(net, (1.0 - beta * net.faces_around[:, None]) * p + beta * _sums(corner, p[end], n))
+    moved = _moved(net, (1.0 - beta * net.faces_around[:, None]) * p + beta * summed_by(corner, p[end], n))
     first, second = _halves(net)
     inside = 2 * net.edges + np.arange(half_edges)
     at, back = n + number, n + number[net.before]

@@ -82,9 +82,6 @@ class Torus(EllipticSections):
     def _ellipse(self) -> tuple[float, float]:
         return 1.0, 1.0
 
-    def _middle(self) -> Floats:
-        return np.asarray(self.centre)
-
     def _at(self, x: Floats, y: Floats, z: Floats) -> Floats:
         # Its sections are circles: there is nothing to multiply.
         return from_components(x, y, z)

@@ -2,15 +2,20 @@ from .device import DepthCueing, Device
 from .field_steps import euler_curves, runge_kutta_curves
 from .framebuffer import Framebuffer, erasing_edges, interleaved, swapped_buffers, with_polygons, with_smooth_polygons
 from .intersections import Plane, polygons_common_segment
-from .object_orders import cyclic_overlap_report, cyclic_overlaps, demands, grouped_order, priorities, view_objects
 from .orders import (
     Position,
+    cyclic_overlap_report,
+    cyclic_overlaps,
+    demands,
     graph_order,
     graph_triangles,
+    grouped_order,
     in_convex_polygon,
+    priorities,
     relative_position,
     ring_order,
     sliced_meridian,
+    view_objects,
 )
 from .polyhedra import body_record, convex_revolution_parts, spatial_hull
 from .separating_planes import Surroundings, own_box, separations, spheres_power

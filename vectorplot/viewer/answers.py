@@ -24,7 +24,7 @@ from vectorplot.animation.movies import encoded, movie_of
 from vectorplot.arrays import Floats
 from vectorplot.drawing.drawing import Drawing
 from vectorplot.errors import InputError
-from vectorplot.geometry.camera import Camera, Point
+from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.vectors import norm
 from vectorplot.geometry.winding import mesh_edges
@@ -40,6 +40,7 @@ from vectorplot.viewer.pictures import Given, Job, Source, drawable, for_browser
 from vectorplot.viewer.state import (
     WIDEST_DEG,
     ViewerState,
+    as_point,
     axes_of,
     camera_of_state,
     first_state,
@@ -203,14 +204,9 @@ def _arrow(right: float, up: float) -> Change:
         step = SHIFT * state.picture_height
         across, upward, _ = axes_of(state)
         moved = [t + step * (right * a + up * u) for t, a, u in zip(state.target, across, upward, strict=True)]
-        return replace(state, target=_point(moved))
+        return replace(state, target=as_point(moved))
 
     return change
-
-
-def _point(numbers: list[float]) -> Point:
-    x, y, z = (float(number) for number in numbers)
-    return (x, y, z)
 
 
 def _view(azimuth_quarters: int, elevation_quarters: int) -> Change:

@@ -234,7 +234,8 @@ def camera_of_state(state: ViewerState, scene: Scene) -> Camera:
     )
 
 
-def _point(vector: Floats) -> Point:
+def as_point(vector: Iterable[float]) -> Point:
+    """Three numbers as Python has them."""
     x, y, z = (float(one) for one in vector)
     return (x, y, z)
 
@@ -273,4 +274,4 @@ def lights_of_state(state: ViewerState, scene: Scene) -> tuple[Light, ...] | Non
 def _turned(about: Floats, radius: float, azimuth: float, elevation: float) -> Point:
     flat = radius * math.cos(elevation)
     offset = (flat * math.cos(azimuth), flat * math.sin(azimuth), radius * math.sin(elevation))
-    return _point(about + np.asarray(offset))
+    return as_point(about + np.asarray(offset))

@@ -13,8 +13,8 @@ import vectorplot as vp
 from vectorplot.drawing.dashes import stroke_lengths
 from vectorplot.drawing.drawing import Layer, Pen
 from vectorplot.drawing.finishing import by_dashes, inked
-from vectorplot.drawing.layers import PENS
-from vectorplot.drawing.pen_layers import one_for_each_pen
+from vectorplot.drawing.layers import one_for_each_pen
+from vectorplot.drawing.pens import PENS
 from vectorplot.drawing.strokes import chosen
 from vectorplot.geometry import box
 from vectorplot.scene import Colouring

@@ -11,9 +11,8 @@ from support.sample_paths import polylines
 from vectorplot.curves.bezier import bezier_tangents
 from vectorplot.drawing.dashes import dashed
 from vectorplot.drawing.drawing import Paths
-from vectorplot.drawing.finishing import long_strokes
+from vectorplot.drawing.finishing import long_strokes, without_collinear_points
 from vectorplot.drawing.pen_order import pen_ordered
-from vectorplot.drawing.simplify import without_collinear_points
 from vectorplot.drawing.stroke_curves import curved_strokes
 from vectorplot.drawing.strokes import chosen, clipped, concatenated, joined, split_long
 

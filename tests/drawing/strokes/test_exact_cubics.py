@@ -13,7 +13,7 @@ from vectorplot.curves import AkimaSpline, BSpline, CubicSpline, PlacedCurve, nu
 from vectorplot.curves.splines import SplineCurve
 from vectorplot.drawing import curved_strokes
 from vectorplot.drawing.drawing import CurvedStrokes, Paths
-from vectorplot.drawing.simplify import without_collinear_points
+from vectorplot.drawing.finishing import without_collinear_points
 from vectorplot.surfaces import PlacedSurface, Sphere, nurbs_surface, spline_surface
 from vectorplot.surfaces.splines import line_pieces
 from vectorplot.testing.shapes import box

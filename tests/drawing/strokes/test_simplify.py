@@ -6,7 +6,7 @@ from support.effort import examples
 from support.pace import cpu_seconds
 from support.sample_paths import farthest_from, length_mm, lines_of, polylines, segments_of
 
-from vectorplot.drawing.simplify import without_collinear_points
+from vectorplot.drawing.finishing import without_collinear_points
 
 
 def test_points_on_a_straight_line_go_and_corners_stay():

@@ -5,8 +5,8 @@ from support.sample_paths import polylines
 
 from vectorplot.drawing.dashes import dashed
 from vectorplot.drawing.drawing import Paths
+from vectorplot.drawing.finishing import without_collinear_points
 from vectorplot.drawing.pen_order import pen_ordered
-from vectorplot.drawing.simplify import without_collinear_points
 from vectorplot.drawing.strokes import chosen, clipped, concatenated, joined, split_long, unrolled
 
 # The smooth strokes lie above y = 50, the others below.

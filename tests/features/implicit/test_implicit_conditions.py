@@ -4,12 +4,7 @@ import numpy as np
 import pytest
 
 from vectorplot.errors import InputError
-from vectorplot.features.conditions import MeetsPlane
-from vectorplot.features.polygonization import (
-    ImplicitCentralContour,
-    ImplicitIsophote,
-    ImplicitPointIsophote,
-)
+from vectorplot.features.conditions import ImplicitCentralContour, ImplicitIsophote, ImplicitPointIsophote, MeetsPlane
 from vectorplot.surfaces.quadrics import implicit_sphere
 from vectorplot.surfaces.tori import ImplicitTorus
 

@@ -7,6 +7,7 @@ from vectorplot.errors import InputError
 from vectorplot.features.contours_and_isophotes import contour, isophotes, point_light_isophotes
 from vectorplot.features.curve_tracing import Tracing
 from vectorplot.features.implicit_curves import (
+    ImplicitTracing,
     implicit_borders,
     implicit_contour,
     implicit_intersection,
@@ -16,7 +17,6 @@ from vectorplot.features.implicit_curves import (
     implicit_point_light_isophotes,
 )
 from vectorplot.features.implicit_meshes import implicit_mesh
-from vectorplot.features.implicit_tracing import ImplicitTracing
 from vectorplot.surfaces.implicit import implicit_of_function
 from vectorplot.surfaces.quadrics import (
     Ellipsoid,

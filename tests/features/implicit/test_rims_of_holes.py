@@ -5,9 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from vectorplot.features.implicit_curves import implicit_borders, implicit_contour
+from vectorplot.features.implicit_curves import ImplicitTracing, implicit_borders, implicit_contour
 from vectorplot.features.implicit_meshes import implicit_mesh
-from vectorplot.features.implicit_tracing import ImplicitTracing
 from vectorplot.surfaces import implicit_of_function
 
 BOX = ((-1.2, -1.2, -1.0), (1.2, 1.2, 1.0))

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from vectorplot.features.curve_tracing import Tracing
-from vectorplot.features.implicit_tracing import ImplicitTracing
-from vectorplot.features.mesh_sections import ImplicitPatch, implicit_mesh_section, mesh_section
+from vectorplot.features.implicit_curves import ImplicitTracing
+from vectorplot.features.intersections import ImplicitPatch, implicit_mesh_section, mesh_section
 from vectorplot.features.polygonization import polygonized
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.surfaces.placed_surface import PlacedImplicit

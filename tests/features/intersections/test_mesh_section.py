@@ -5,7 +5,7 @@ import pytest
 
 from vectorplot.features.contours_and_isophotes import plane_sections
 from vectorplot.features.curve_tracing import Tracing
-from vectorplot.features.mesh_sections import mesh_section
+from vectorplot.features.intersections import mesh_section
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.rotations import rotation_about
 from vectorplot.surfaces.function_surface import surface_of_function

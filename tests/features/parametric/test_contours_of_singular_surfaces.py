@@ -10,7 +10,7 @@ import vectorplot as vp
 from vectorplot import curves, features, surfaces
 from vectorplot.features.contours_and_isophotes import parallel_contour
 from vectorplot.features.holes import wrapped
-from vectorplot.features.pinch_points import pinch_points
+from vectorplot.features.surface_singularities import pinch_points
 from vectorplot.surfaces.stacked import unit_normals
 
 ROUND = 'u 0 "2*pi" v 0 "2*pi" closed_u closed_v'

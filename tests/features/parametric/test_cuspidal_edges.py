@@ -5,7 +5,7 @@ import pytest
 
 from vectorplot.errors import InputError
 from vectorplot.features.curve_tracing import Tracing
-from vectorplot.features.cuspidal_edges import singular_lines
+from vectorplot.features.surface_singularities import singular_lines
 from vectorplot.geometry.mesh_cuts import HalfSpaces
 from vectorplot.surfaces.function_surface import surface_of_function
 from vectorplot.surfaces.quadrics import Cylinder, Sphere

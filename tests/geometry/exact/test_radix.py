@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from vectorplot.geometry.radix import radix_order
+from vectorplot.geometry.ragged import radix_order
 
 
 @pytest.mark.parametrize("bits", [1, 15, 16, 17, 32, 48, 63, 64])

@@ -17,7 +17,7 @@ from vectorplot.pictures.draw import draw
 from vectorplot.scene.light import Light
 from vectorplot.scene.view import look
 from vectorplot.shading.shaded_faces import face_middles, face_normals, face_shades, view_lights
-from vectorplot.textbook.object_orders import priorities, view_objects, wholly_hidden
+from vectorplot.textbook.orders import priorities, view_objects, wholly_hidden
 from vectorplot.textbook.polyhedra import body_record, common_edge, contour_branches, face_records, neighbour_faces
 from vectorplot.textbook.separating_planes import FIRST_ABOVE, separations
 from vectorplot.visibility.painter.priority_tests import BEHIND, IN_FRONT

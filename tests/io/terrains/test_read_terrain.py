@@ -11,7 +11,7 @@ from vectorplot.errors import InputError, InputWarning
 from vectorplot.io.read_file import read
 from vectorplot.io.terrain_files import default_exaggeration, read_terrain
 from vectorplot.scene.added_lines import round_sections, with_numbers
-from vectorplot.scene.scales import BoxAxes, Colouring
+from vectorplot.scene.colour_scales import BoxAxes, Colouring
 from vectorplot.scene.scene import together
 from vectorplot.scene.surface_lines import round_heights
 from vectorplot.surfaces.terrains import Terrain, terrain

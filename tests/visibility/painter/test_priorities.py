@@ -22,18 +22,18 @@ from vectorplot.testing.shapes import (
     scene_of,
     torus_mesh,
 )
-from vectorplot.textbook.object_orders import (
+from vectorplot.textbook.orders import (
     cyclic_overlap_report,
     cyclic_overlaps,
     demands,
     grouped_order,
     object_order,
     priorities,
+    sphere_order,
     view_objects,
     which_first,
     wholly_hidden,
 )
-from vectorplot.textbook.orders import sphere_order
 from vectorplot.visibility.painter.image_faces import drawn_faces, image_faces
 from vectorplot.visibility.painter.painters_order import painters_order
 from vectorplot.visibility.painter.priority_tests import (

@@ -5,9 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from vectorplot.features.conditions import MeetsPlane
+from vectorplot.features.conditions import ImplicitIsophote, MeetsPlane
 from vectorplot.features.curve_tracing import Tracing
-from vectorplot.features.polygonization import ImplicitIsophote
 from vectorplot.geometry.camera import Camera
 from vectorplot.scene.item import Item
 from vectorplot.scene.scene import Scene

@@ -37,22 +37,26 @@ from vectorplot.cli.options import (
     drawing_format,
     format_option,
     lines_option,
-    tiles_beside,
     with_options,
 )
-from vectorplot.cli.picture import Companion, ReadSource, Source, make_picture
+from vectorplot.cli.picture import Companion, ReadSource, Source, make_picture, tiles_beside
 
 if TYPE_CHECKING:
-    from collections.abc import Collection
+    from collections.abc import Collection, Mapping
 
     from vectorplot.cli.picture import Report
     from vectorplot.drawing.drawing import Drawing
-    from vectorplot.pictures.anamorphosis import Drawn
+    from vectorplot.pictures.anamorphosis import Drawn, Laid
     from vectorplot.scene.scene import Scene
     from vectorplot.shading.image import Image
 
-_SETTING = ("mirror", "radius_mm", "height_mm", "viewer", "seen_mm", "page", "curves", "tolerance_mm", "jobs")
-"""What the verb is told of the mirror, and how its lines leave."""
+_MIRROR = ("radius_mm", "height_mm", "viewer", "seen_mm")
+"""What is told of the mirror, besides its kind."""
+
+_PAGE = ("page", "curves", "tolerance_mm", "jobs")
+"""What is told of the page, and how the lines leave."""
+
+_SETTING = ("mirror", *_MIRROR, *_PAGE)
 
 _FILES = ("scene_file", "out", "format_", "quiet", "explain", "exaggeration", "molecules", "tiles", "landscape")
 """Parameters that say what is read and written, and what is said of it."""
@@ -144,10 +148,9 @@ def anamorphosis(**params: Any) -> None:
         source = ReadSource(paths, *fineness, scene=Scene(()))
 
     def picture(scene: Scene, report: Report) -> Drawing:
-        from vectorplot.pictures.anamorphosis import anamorphosis_of, on_page
+        from vectorplot.pictures.anamorphosis import on_page
 
-        drawn = _drawn(source, told, scene, report)
-        return anamorphosis_of(drawn, on_page, **setting, progress=report.progress, explain=report.explain)
+        return _laid(on_page, _drawn(source, told, scene, report), setting, report)
 
     beside = [] if params["tiles"] is None else tiles_beside(params, written)
     if preview is not None:
@@ -186,7 +189,16 @@ def _drawn(source: Source, told: Told, scene: Scene, report: Report) -> Drawn:
     return picture_of(lined, **rest, hatch=hatch, explain=report.explain)
 
 
-def _preview(source: Source, told: Told, setting: dict[str, Any], path: str, out: str) -> Companion:
+def _laid(laid: Laid, drawn: Drawn, setting: Mapping[str, Any], report: Report) -> Drawing:
+    """What is laid on a page of a picture, as the user told."""
+    from vectorplot.pictures.anamorphosis import AnamorphicMirror, anamorphosis_of
+
+    mirror = AnamorphicMirror(setting["mirror"], **{name: setting[name] for name in _MIRROR})
+    how = {name: setting[name] for name in _PAGE}
+    return anamorphosis_of(drawn, laid, mirror, **how, progress=report.progress, explain=report.explain)
+
+
+def _preview(source: Source, told: Told, setting: Mapping[str, Any], path: str, out: str) -> Companion:
     """The file of what is seen from the eye. Errors: bad usage for one that is OUT."""
     if path == "-" or os.path.realpath(path) == os.path.realpath(out):
         raise click.UsageError("--preview needs a file of its own")
@@ -194,12 +206,10 @@ def _preview(source: Source, told: Told, setting: dict[str, Any], path: str, out
 
     def content(scene: Scene, made: Drawing | Image) -> bytes:
         from vectorplot.cli.picture import SILENT
-        from vectorplot.pictures.anamorphosis import anamorphosis_of, as_seen
+        from vectorplot.pictures.anamorphosis import as_seen
         from vectorplot.save import write
 
-        whole = {**setting, "page": None}
-        return write(
-            anamorphosis_of(_drawn(source, told, scene, SILENT), as_seen, **whole, progress=None, explain=None), written
-        )
+        seen = _laid(as_seen, _drawn(source, told, scene, SILENT), {**setting, "page": None}, SILENT)
+        return write(seen, written)
 
     return Companion("preview", path, content)

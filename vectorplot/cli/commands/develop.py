@@ -24,10 +24,9 @@ from vectorplot.cli.options import (
     crease_angle_option,
     drawing_format,
     format_option,
-    tiles_beside,
     with_options,
 )
-from vectorplot.cli.picture import Source, make_picture
+from vectorplot.cli.picture import Source, make_picture, tiles_beside
 
 if TYPE_CHECKING:
     from vectorplot.cli.picture import Report

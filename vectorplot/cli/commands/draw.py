@@ -177,7 +177,7 @@ def draw(scene: Scene, **told: Any) -> Drawing:
 
 def _plotting(drawing: Drawing) -> Iterator[StageReport]:
     """How far the pens of a plotter go for a drawing, how often they are lifted, and how long that takes."""
-    from vectorplot.drawing.plotting import DOWN_MM_PER_S, LIFT_S, UP_MM_PER_S, plot_estimate
+    from vectorplot.drawing.pen_order import DOWN_MM_PER_S, LIFT_S, UP_MM_PER_S, plot_estimate
     from vectorplot.pictures.pipeline import StageReport, peak_mb
 
     found, peak = plot_estimate(drawing), peak_mb()

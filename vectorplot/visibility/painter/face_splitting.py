@@ -225,7 +225,7 @@ def cut_into_order(
     """
     place, full = group, len(faces) + most
     circled = np.zeros(len(faces), dtype=np.bool_)
-    for number in range(MOST_ROUNDS):
+    for _ in range(MOST_ROUNDS):
         pairs = pairs.take((place[pairs.first] == place[pairs.second]) & (pairs.codes != APART))
         place = _sorted_out(faces, place, pairs)
         pairs = pairs.take(place[pairs.first] == place[pairs.second])
@@ -234,7 +234,7 @@ def cut_into_order(
         pairs = pairs.take(~crowded[pairs.first])
         if not len(pairs):
             break
-        victim, knife = _cuts(faces, place, pairs, number, tolerance)
+        victim, knife = _cuts(faces, place, pairs, tolerance)
         # Steep faces may lie within the tolerance of a plane that they are said to reach through.
         halved = in_two(faces, victim, faces.planes[:, knife], faces.steepness[knife], tolerance)
         victim, knife = victim[halved], knife[halved]
@@ -291,7 +291,7 @@ def _sorted_out(faces: ImageFaces, place: Ints, pairs: Pairs) -> Ints:
     return dense(place, rank)
 
 
-def _cuts(faces: ImageFaces, place: Ints, pairs: Pairs, number: int, tolerance: float) -> tuple[Ints, Ints]:
+def _cuts(faces: ImageFaces, place: Ints, pairs: Pairs, tolerance: float) -> tuple[Ints, Ints]:
     """Which faces to cut this round, each one once, and by whose planes. All pairs lie within circles."""
     straddling = pairs.codes == STRADDLING
     piercing = pairs.take(straddling)

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
-from vectorplot.geometry.radix import radix_order
+from vectorplot.geometry.ragged import radix_order
 from vectorplot.geometry.records import IN_COLUMNS, Elements
 from vectorplot.tolerances import SMALLEST_CELL
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sized
 from dataclasses import dataclass, replace
 from functools import partial
 from itertools import pairwise
@@ -442,6 +442,12 @@ class Visibility:
 
     def __len__(self) -> int:
         return len(self.segment)
+
+
+def unhidden(lines: Sized) -> Visibility:
+    """Every segment or arc, from end to end, as if nothing hid it."""
+    count = len(lines)
+    return Visibility(np.arange(count), np.zeros(count), np.ones(count), np.zeros(count, dtype=np.intp))
 
 
 def with_whole_lines(seen: Visibility, whole: Bools) -> Visibility:

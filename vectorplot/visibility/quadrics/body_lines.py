@@ -11,7 +11,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged, records
 from vectorplot.geometry.algebra import determinant, matmul
 from vectorplot.geometry.elementary import arccos, arcsin, arctan, arctan2, tan
-from vectorplot.geometry.vectors import cross, dot
+from vectorplot.geometry.vectors import cross, dot, snapped
 from vectorplot.scene.added_lines import curve_light
 from vectorplot.scene.item import Item
 from vectorplot.scene.scene import Scene
@@ -468,7 +468,7 @@ def _of_frusta(bodies: CappedBodies, before: int, planes: _Planes, kind: LineKin
     but for a projective change of the parameter that makes its weights even. Source: this package's own.
     """
     body = planes.body
-    steep = _snapped(np.hypot(planes.normal[:, 0], planes.normal[:, 1]), bodies.tolerance)
+    steep = snapped(np.hypot(planes.normal[:, 0], planes.normal[:, 1]), bodies.tolerance)
     bottom, top = bodies.radii[body].T
     growth = top - bottom
     # Normals such that the divisor is positive, and angles from where it is largest.
@@ -506,15 +506,11 @@ def _cosines_on_rims(planes: _Planes, steep: Floats, bodies: CappedBodies) -> Fl
     ends = []
     with np.errstate(divide="ignore", invalid="ignore"):
         for end in (BOTTOM, TOP):
-            height = _snapped(planes.at(bodies.ends[planes.body, end]), bodies.tolerance)
+            height = snapped(planes.at(bodies.ends[planes.body, end]), bodies.tolerance)
             ends.append(height / (bodies.radii[planes.body, end] * steep))
     # A plane through an apex meets rulings; one that meets neither circle lies in a cap.
     ends = [np.where(np.isnan(one), other, one) for one, other in (ends, ends[::-1])]
     return np.asarray(np.nan_to_num(np.stack(ends), nan=2.0, posinf=2.0, neginf=-2.0))
-
-
-def _snapped(values: Floats, tolerance: float) -> Floats:
-    return np.where(np.abs(values) <= tolerance, 0.0, values)
 
 
 @dataclass(frozen=True, eq=False)
@@ -598,7 +594,7 @@ def _of_balls(bodies: CappedBodies, before: int, planes: _Planes, kind: LineKind
 def _of_caps(bodies: CappedBodies, before: int, planes: _Planes, end: int, kind: LineKind) -> Found:
     """The straight sections of the caps at one end."""
     some = records.take(planes, np.flatnonzero(bodies.has_cap[planes.body, end]))
-    steep = _snapped(np.hypot(some.normal[:, 0], some.normal[:, 1]), bodies.tolerance)
+    steep = snapped(np.hypot(some.normal[:, 0], some.normal[:, 1]), bodies.tolerance)
     reach = bodies.radii[some.body, end] * steep
     distance = some.at(bodies.ends[some.body, end])
     kept = np.flatnonzero(np.abs(distance) < reach - bodies.tolerance)

@@ -244,12 +244,6 @@ class _Hidden:
     whole: Bools
 
 
-def whole_arcs(arcs: Arcs) -> Visibility:
-    """All of every arc, as if nothing hid it."""
-    count = len(arcs)
-    return Visibility(np.arange(count), np.zeros(count), np.ones(count), np.zeros(count, dtype=np.intp))
-
-
 def visible_arcs(bodies: Bodies, arcs: Arcs, sides: OwnSides, progress: Progress) -> Visibility:
     """The visible parts of arcs among bodies, as parts of their way from low to high.
 

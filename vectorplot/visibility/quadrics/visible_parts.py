@@ -67,7 +67,7 @@ class QuadricBodies(Elements):
         """(4,n) the eye where the bodies are the unit ones, homogeneous: a direction of unit length in a parallel
         projection."""
         if self.eye is not None:
-            place = _times(self.eye[:, None] - self.centre, self.inverse)
+            place = dot(self.eye[:, None] - self.centre, self.inverse)
             return np.concatenate([place, np.ones((1, len(self)))])
         towards = self.inverse[2]
         return np.concatenate([towards / np.sqrt(dot(towards, towards)), np.zeros((1, len(self)))])
@@ -99,7 +99,7 @@ class QuadricBodies(Elements):
         height = np.where(top, self.ends[1, which], self.ends[0, which])
         at_end = np.stack([radius * local[0] / across, radius * local[1] / across, height])
         s = np.where(self.is_ball[which], local / length, at_end)
-        return self.centre[:, which] + _times(s, frame)
+        return self.centre[:, which] + dot(s, frame)
 
 
 def quadric_bodies(projection: Projection, shapes: Sequence[object], items: Sequence[int]) -> QuadricBodies | None:
@@ -129,11 +129,6 @@ def quadric_bodies(projection: Projection, shapes: Sequence[object], items: Sequ
         np.asarray((ends > 0.0) & ~np.array(is_ball, dtype=np.bool_), dtype=np.bool_),
         np.array(items, dtype=np.intp),
     )
-
-
-def _times(rows: Floats, matrices: Floats) -> Floats:
-    """(3,n) the products of row vectors (3,n) with matrices (3,3,n)."""
-    return np.asarray(rows[0] * matrices[0] + rows[1] * matrices[1] + rows[2] * matrices[2])
 
 
 # Charts: the visible caps of balls, the visible strips of mantles between their contours, and visible flat ends.
@@ -297,9 +292,9 @@ def _charts(bodies: QuadricBodies, which: Ints, kind: int, local: Floats, number
         np.full(len(which), kind, dtype=np.intp),
         which,
         bodies.centre[:, which],
-        np.stack([_times(vector, frame) for vector in local]),
+        np.stack([dot(vector, frame) for vector in local]),
         # Gradients of the equations of the bodies.
-        np.stack([_times(vector, inverse.transpose(1, 0, 2)) for vector in local]),
+        np.stack([dot(vector, inverse.transpose(1, 0, 2)) for vector in local]),
         rows,
     )
 

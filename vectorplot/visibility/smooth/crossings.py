@@ -9,8 +9,10 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import records
+from vectorplot.geometry.boxes import BoxStrips
+from vectorplot.geometry.budget import Block, in_blocks
 from vectorplot.geometry.records import Elements
-from vectorplot.geometry.vectors import all_components, dot
+from vectorplot.geometry.vectors import all_components, cross, dot
 from vectorplot.scene.view import View
 from vectorplot.tolerances import (
     ALONG_EDGE_SINE,
@@ -25,10 +27,9 @@ from vectorplot.tolerances import (
     SEEN_ALONG_SINE,
 )
 from vectorplot.visibility.smooth import sight_lines
-from vectorplot.visibility.smooth.box_strips import Block, BoxStrips, in_blocks
 from vectorplot.visibility.smooth.events import Events, hopped, on_chord, once
 from vectorplot.visibility.smooth.sheets import Sheets
-from vectorplot.visibility.smooth.traced_curves import Curves, at_once, covered_sides, turn
+from vectorplot.visibility.smooth.traced_curves import Curves, at_once, covered_sides
 from vectorplot.words import LineKind
 
 # Chords of curves replaced by cubic arcs: close to the curves, and cheap to search.
@@ -290,7 +291,7 @@ def _approach(a: Floats, b: Floats, c: Floats, d: Floats) -> tuple[Floats, Float
     """Parts (k,) of segments a b and c d (k,2) at which they cross or come closest, and their distance there."""
     ab, cd, ac = b - a, d - c, c - a
     with np.errstate(divide="ignore", invalid="ignore"):
-        s, t = turn(ac, cd) / turn(ab, cd), turn(ac, ab) / turn(ab, cd)
+        s, t = cross(ac, cd) / cross(ab, cd), cross(ac, ab) / cross(ab, cd)
     s = np.clip(np.where(np.isfinite(s), s, 0.5), 0.0, 1.0)
     t = np.clip(np.where(np.isfinite(t), t, 0.5), 0.0, 1.0)
     for _ in range(2):
@@ -315,7 +316,7 @@ def _roughly_met(view: View, curves: Curves, edges: Curves, pairs: Pairs) -> Pai
         (p, a), (q, b) = one.at(part[active]), two.at(edge_part[active])
         away = (q - p)[:, :2]
         off[active], gap[active] = np.sqrt(dot(away, away)), (p - q)[:, 2]
-        s, t = _step(away, a, b)
+        s, t = _step(away, a[:, :2], b[:, :2])
         part[active] = np.clip(part[active] + s, -0.5, 1.5)
         edge_part[active] = np.clip(edge_part[active] + t, -0.5, 1.5)
         far = np.flatnonzero((np.abs(s) > CROSSING_SETTLED) | (np.abs(t) > CROSSING_SETTLED))
@@ -330,7 +331,7 @@ def _roughly_met(view: View, curves: Curves, edges: Curves, pairs: Pairs) -> Pai
 def _step(gap: Floats, a: Floats, b: Floats) -> tuple[Floats, Floats]:
     """One step of Newton for points that move with velocities a and b (k,2) and are a gap (k,2) apart."""
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        s, t = turn(gap, b) / turn(a, b), turn(gap, a) / turn(a, b)
+        s, t = cross(gap, b) / cross(a, b), cross(gap, a) / cross(a, b)
     s, t = (np.clip(np.where(np.isfinite(x), x, 0.0), -0.7, 0.7) for x in (s, t))
     return s, t
 
@@ -386,11 +387,11 @@ def _events(view: View, sheets: Sheets, curves: Curves, edges: Curves, edge_on: 
     real &= residual <= RESIDUAL_OF_GAP * gap * gap * gap
     direction = sight_lines.image_slopes(view, one.points, one.slopes)
     along = sight_lines.image_slopes(view, two.points, two.slopes)
-    real &= np.abs(turn(along, direction)) > ALONG_EDGE_SINE * np.sqrt(dot(along, along) * dot(direction, direction))
+    real &= np.abs(cross(along, direction)) > ALONG_EDGE_SINE * np.sqrt(dot(along, along) * dot(direction, direction))
     pairs, points, places, edge = pairs.take(real), two.points[real], two.places[real], edges.owner[pairs.edge[real]]
     direction, along = direction[real], along[real]
     kind = edges.kind[edge]
     covered = covered_sides(view, sheets, edges.sheet[edge], kind, points, places, two.slopes[real])
     step = np.where(kind == LineKind.BOUNDARY, 1, 2)
-    change = np.sign(turn(along, direction)).astype(np.intp) * covered * step
+    change = np.sign(cross(along, direction)).astype(np.intp) * covered * step
     return Events(pairs.chord, pairs.part, edges.item[edge], change)

@@ -7,11 +7,20 @@ from dataclasses import replace
 import numpy as np
 
 from vectorplot.arrays import Floats
-from vectorplot.features.conditions import MeetsPlane, SpatialCondition
+from vectorplot.features.conditions import (
+    ImplicitCentralContour,
+    ImplicitIsophote,
+    ImplicitPointIsophote,
+    MeetsPlane,
+    SpatialCondition,
+)
 from vectorplot.features.contours_and_isophotes import direction_across, in_planes
 from vectorplot.features.curve_tracing import Tracing
 from vectorplot.features.feature_lines import Detail, Sight
 from vectorplot.features.implicit_curves import (
+    ImplicitCurves,
+    ImplicitTracing,
+    all_curves,
     implicit_borders,
     implicit_contour,
     implicit_isophotes,
@@ -23,14 +32,8 @@ from vectorplot.features.implicit_curves import (
     without_touching,
 )
 from vectorplot.features.implicit_singular_lines import CuspidalEdges, DoubleLines
-from vectorplot.features.implicit_tracing import ImplicitCurves, ImplicitTracing, all_curves
 from vectorplot.features.mesh_feature_lines import implicit_feature_lines
-from vectorplot.features.polygonization import (
-    ImplicitCentralContour,
-    ImplicitIsophote,
-    ImplicitPointIsophote,
-    sides_of,
-)
+from vectorplot.features.polygonization import sides_of
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.polylines import closed_round
 from vectorplot.scene.added_lines import curve_light

@@ -14,8 +14,12 @@ from vectorplot.features.curve_tracing import Tracing
 from vectorplot.features.holes import near_to
 from vectorplot.features.implicit_curves import implicit_intersection
 from vectorplot.features.intersection_tracing import DoubleCurves
-from vectorplot.features.intersections import intersections_of_grids, self_intersections
-from vectorplot.features.mesh_sections import implicit_mesh_section, mesh_section
+from vectorplot.features.intersections import (
+    implicit_mesh_section,
+    intersections_of_grids,
+    mesh_section,
+    self_intersections,
+)
 from vectorplot.features.patches import SurfaceGrids
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.boxes import SlabHulls

@@ -30,14 +30,13 @@ from vectorplot.features.contours_and_isophotes import (
     tangent_sections,
 )
 from vectorplot.features.curve_tracing import SurfaceCurves, Tracing, extent, together
-from vectorplot.features.cuspidal_edges import singular_lines
 from vectorplot.features.feature_lines import Detail, Sight, surface_feature_lines
 from vectorplot.features.geodesic_curves import geodesics_between
 from vectorplot.features.hole_rims import hole_rims, trim_borders
 from vectorplot.features.parameter_curves import domain_borders, parameter_lines_of_each, surface_path
-from vectorplot.features.pinch_points import through_pinch_points
 from vectorplot.features.streamlines import DRAWN, evenly_spaced_curves
 from vectorplot.features.surface_integration import geodesics, integral_curves
+from vectorplot.features.surface_singularities import singular_lines, through_pinch_points
 from vectorplot.features.tangent_fields import AsymptoticDirections, PrincipalDirections, SteepestSlope
 from vectorplot.features.zero_curves import ALONG_A_LINE, EVERYWHERE, JUMPS
 from vectorplot.geometry.algebra import matmul
@@ -232,9 +231,9 @@ def curves_of_parametrised(
     seen = replace(contour, doubts=tuple(text for text in contour.doubts if text != EVERYWHERE))
     turn = through_pinch_points(contour_condition(view, sheet.whole.surface))
     found: list[Found] = [(LineKind.CONTOUR, ConditionCurves(sheet.whole, number, turn), seen)]
-    found += _edges(view, sheet, number, tracing)
+    found += _edges(sheet, number, tracing)
     if lines is not None:
-        found.append((LineKind.PARAMETER, _lines_of_parameters(view, sheet, number), lines))
+        found.append((LineKind.PARAMETER, _lines_of_parameters(sheet, number), lines))
     found += _asked_for(scene, view, item, sheet, number, wanted, tracing)
     doubts = tuple(text for _, _, curves in found for text in curves.doubts)
     if any(kind == LineKind.CREASE and (len(curves) or len(curves.isolated)) for kind, _, curves in found):
@@ -243,15 +242,15 @@ def curves_of_parametrised(
     return [as_curves(curves, kind, sheet.item, family) for kind, family, curves in found if len(curves)], doubts
 
 
-def _lines_of_parameters(view: View, sheet: ParametricSheet, number: int) -> ParameterCurves:
+def _lines_of_parameters(sheet: ParametricSheet, number: int) -> ParameterCurves:
     pieces = line_pieces(sheet.surface)
     return ParameterCurves(sheet, number, degrees_along=pieces.degrees, weighted=pieces.weighted)
 
 
-def _edges(view: View, sheet: ParametricSheet, number: int, tracing: Tracing) -> list[Found]:
+def _edges(sheet: ParametricSheet, number: int, tracing: Tracing) -> list[Found]:
     """Borders, the rims of holes among them, and cuspidal edges."""
     surface, straight = sheet.surface, ParameterCurves(sheet, number)
-    lines = _lines_of_parameters(view, sheet, number)
+    lines = _lines_of_parameters(sheet, number)
     result: list[Found] = [(LineKind.BOUNDARY, lines, domain_borders(surface, tracing))]
     # What has no hole in the tessellation has none on the coarser grid of its curves.
     if sheet.trims is not None:

@@ -9,6 +9,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import intervals, ragged, records
 from vectorplot.geometry.boxes import SlabHulls
+from vectorplot.geometry.budget import Block, in_blocks
 from vectorplot.geometry.vectors import dot, greatest_component, least_component
 from vectorplot.scene.view import View
 from vectorplot.tolerances import (
@@ -22,7 +23,6 @@ from vectorplot.tolerances import (
     SETTLED_OF_EXTENT,
 )
 from vectorplot.visibility.smooth import sight_lines
-from vectorplot.visibility.smooth.box_strips import Block, in_blocks
 from vectorplot.visibility.smooth.crossings import cubics_in_space
 from vectorplot.visibility.smooth.events import Events, all_events, hopped, on_chord, once
 from vectorplot.visibility.smooth.lines_on_several_sheets import Stretches

@@ -11,10 +11,19 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged, records
 from vectorplot.geometry.algebra import inverse_matrix
-from vectorplot.geometry.budget import in_turn
+from vectorplot.geometry.boxes import BoxStrips
+from vectorplot.geometry.budget import Block, in_blocks, in_turn
 from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.records import Elements
-from vectorplot.geometry.vectors import all_finite, dot, from_components, greatest_component, least_component, norm
+from vectorplot.geometry.vectors import (
+    all_finite,
+    cross,
+    dot,
+    from_components,
+    greatest_component,
+    least_component,
+    norm,
+)
 from vectorplot.scene.view import View
 from vectorplot.surfaces.capped_bodies import ball_of
 from vectorplot.tolerances import (
@@ -30,7 +39,6 @@ from vectorplot.tolerances import (
     TOUCHING_OF_EXTENT,
 )
 from vectorplot.visibility.smooth import sight_lines
-from vectorplot.visibility.smooth.box_strips import Block, BoxStrips, in_blocks
 from vectorplot.visibility.smooth.sheets import ParametricSheet, Sheets
 
 # Sheets as targets of sight lines and of curves: a tree over the images of their triangles.
@@ -196,10 +204,10 @@ def weights(triangle: Floats, points: Floats) -> Floats:
     """(k,3) barycentric coordinates of points (k,2) in triangles (k,3,2); not finite for those seen edge-on."""
     a, b, c = triangle[:, 0], triangle[:, 1], triangle[:, 2]
     ab, ac, ap = b - a, c - a, points - a
-    area = ab[:, 0] * ac[:, 1] - ab[:, 1] * ac[:, 0]
+    area = cross(ab, ac)
     with np.errstate(divide="ignore", invalid="ignore"):
-        two = (ap[:, 0] * ac[:, 1] - ap[:, 1] * ac[:, 0]) / area
-        three = (ab[:, 0] * ap[:, 1] - ab[:, 1] * ap[:, 0]) / area
+        two = cross(ap, ac) / area
+        three = cross(ab, ap) / area
         return np.stack([1.0 - two - three, two, three], axis=1)
 
 
@@ -219,7 +227,7 @@ def distance_to(triangle: Floats, points: Floats) -> Floats:
         along = np.clip(dot(side, to) / np.maximum(dot(side, side), LEAST_DIVISOR), 0.0, 1.0)
         off = to - along[:, None] * side
         away.append(dot(off, off))
-        turns.append(side[:, 0] * to[:, 1] - side[:, 1] * to[:, 0])
+        turns.append(cross(side, to))
     around = np.stack(turns, axis=1)
     within = (least_component(around) > 0.0) | (greatest_component(around) < 0.0)
     return np.where(within, 0.0, np.sqrt(least_component(np.stack(away, axis=1))))

@@ -13,13 +13,13 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.curves.bezier import bernstein, cubic_error, places
 from vectorplot.features.conditions import ImplicitSection
 from vectorplot.features.curve_tracing import SurfaceCurves
-from vectorplot.features.pinch_points import ThroughPinchPoints
+from vectorplot.features.surface_singularities import ThroughPinchPoints
 from vectorplot.geometry import ragged
 from vectorplot.geometry.budget import in_turn
 from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, LineElements, closed_round, joined
 from vectorplot.geometry.records import APART, Elements
-from vectorplot.geometry.vectors import all_components, all_finite, any_component, dot, from_components, norm
+from vectorplot.geometry.vectors import all_components, all_finite, any_component, cross, dot, from_components, norm
 from vectorplot.scene.view import View
 from vectorplot.tolerances import BESIDE_STANDSTILL, LEAST_DIVISOR, SAME_DIRECTION_SINE
 from vectorplot.visibility.smooth import sight_lines
@@ -258,13 +258,8 @@ def sides_of_rims(
 
 def _sides(view: View, points: Floats, slopes: Floats, covered: Floats) -> Ints:
     """(k,) the sides of edges to which directions (k,3) lead."""
-    side = turn(sight_lines.image_slopes(view, points, slopes), sight_lines.image_slopes(view, points, covered))
+    side = cross(sight_lines.image_slopes(view, points, slopes), sight_lines.image_slopes(view, points, covered))
     return np.where(np.isfinite(side), np.sign(side), 0.0).astype(np.intp)
-
-
-def turn(a: Floats, b: Floats) -> Floats:
-    """(k,) the areas that vectors a and b (k,2) span, positive for a turn to the left."""
-    return np.asarray(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
 
 
 # Lines that are chords of curves, or parts of chords: cut, they end on their curves.

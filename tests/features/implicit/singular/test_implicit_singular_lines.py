@@ -8,9 +8,8 @@ from functools import cache
 import numpy as np
 import pytest
 
-from vectorplot.features.implicit_curves import implicit_plane_sections, refined_line
+from vectorplot.features.implicit_curves import ImplicitTracing, implicit_plane_sections, refined_line
 from vectorplot.features.implicit_singular_lines import SingularLines, singular_lines
-from vectorplot.features.implicit_tracing import ImplicitTracing
 from vectorplot.features.polygonization import polygonized
 from vectorplot.geometry.polylines import Polylines
 from vectorplot.io.expressions import parse_expression

@@ -16,8 +16,8 @@ from vectorplot.scene.view import look
 from vectorplot.surfaces.capped_bodies import Capped, Frustum
 from vectorplot.surfaces.placed_surface import PlacedSurface
 from vectorplot.surfaces.quadrics import Cone, Cylinder, Sphere
+from vectorplot.visibility.polyhedra.hidden_lines import unhidden
 from vectorplot.visibility.quadrics.closed_forms import closed_forms
-from vectorplot.visibility.quadrics.hidden_intervals import whole_arcs
 from vectorplot.words import LineKind
 
 EVERY = [
@@ -104,7 +104,7 @@ def arcs_of(scene, camera):
     """The conics of a scene: of each item nine points on every one, in the world."""
     view = look(scene, camera)
     kinds = frozenset({LineKind.SECTION, LineKind.ISOPHOTE})
-    forms = closed_forms(scene, view, kinds, lambda bodies, arcs, sides: whole_arcs(arcs))
+    forms = closed_forms(scene, view, kinds, lambda bodies, arcs, sides: unhidden(arcs))
     arcs, every = forms.arcs, np.arange(len(forms.arcs))
     parts = [arcs.at(every, arcs.low + part * (arcs.high - arcs.low))[0] for part in np.linspace(0.0, 1.0, 9)]
     world = [forms.bodies.sight.points_of_view(points) @ view.axes * view.scale + view.centre for points in parts]

@@ -6,12 +6,8 @@ import numpy as np
 from support.smooth_parts import ball_from_above
 
 from vectorplot.visibility.smooth.sheets import Sheets
-from vectorplot.visibility.smooth.traced_curves import covered_sides, turn
+from vectorplot.visibility.smooth.traced_curves import covered_sides
 from vectorplot.words import LineKind
-
-
-def test_turns() -> None:
-    assert turn(np.array([[1.0, 0.0], [1.0, 0.0]]), np.array([[0.0, 2.0], [1.0, -1.0]])).tolist() == [2.0, -1.0]
 
 
 def test_a_sphere_lies_inside_of_its_equator() -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from vectorplot.visibility.smooth.box_strips import BoxStrips
+from vectorplot.geometry.boxes import BoxStrips
 
 
 def one_by_one(low: np.ndarray, high: np.ndarray, others: BoxStrips) -> set[tuple[int, int]]:

@@ -9,9 +9,9 @@ from hypothesis import strategies as st
 
 import vectorplot as vp
 from vectorplot.io import parse_scene
+from vectorplot.pictures.development import Unrolled
 from vectorplot.surfaces import Cone, Cylinder, Frustum, PlacedSurface, Torus
 from vectorplot.surfaces.surface import Domain, Transposed
-from vectorplot.surfaces.unrolled import Unrolled
 
 
 def surface_of(text):
