@@ -102,7 +102,7 @@ def _pieces_of_curve(name: str, curve: Curve) -> Floats:
 
 def bounds_of_loops(loops: Sequence[Floats]) -> Floats:
     """(2,2) smallest and largest u and v of the pieces of curves."""
-    return bounds_of_many([loops])[0]
+    return np.asarray(bounds_of_many([loops])[0])
 
 
 def bounds_of_many(many: Sequence[Sequence[Floats]]) -> Floats:
@@ -114,7 +114,7 @@ def bounds_of_many(many: Sequence[Sequence[Floats]]) -> Floats:
     parts, of = monotone(control)
     np.minimum.at(low, of, parts[:, 0])
     np.maximum.at(high, of, parts[:, 0])
-    return np.asarray(np.stack([np.minimum.reduceat(low, first), np.maximum.reduceat(high, first)], axis=1))
+    return np.stack([np.minimum.reduceat(low, first), np.maximum.reduceat(high, first)], axis=1)
 
 
 def monotone(control: Floats) -> tuple[Floats, Ints]:
