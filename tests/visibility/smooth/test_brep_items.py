@@ -154,6 +154,7 @@ def test_what_only_triangles_have_is_drawn_from_them_and_said():
     assert math.isclose(rod().bounds[1, 2], HEIGHT)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("lines", ["crease", "crease,shadow"])
 @pytest.mark.parametrize("body", [rod_item(), vp.Item("round", round_rod((0, 0, 0), (0, 0, HEIGHT), RADIUS))])
 def test_rims_are_whole_where_creases_are_asked_for_and_contours_are_not(body, lines):
