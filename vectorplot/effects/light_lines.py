@@ -607,7 +607,10 @@ def _met(eye: _Eye, rays: _Rays, lines: Lines, out: Floats, items: Bools, line: 
     towards = rays.towards(beside)
     found = meetings_along(view, sheets, beside - FAR_BEHIND * towards, rays.balls)
     behind = dot(beside[found.sample] - sheets.points(found.number, found.places), towards[found.sample])
-    kept = np.flatnonzero(behind > BEHIND_SMOOTH_OUTLINE)
+    # Where something touches another item light ends there, and goes on to nothing within that.
+    other = sheets.item[found.number] != lines.item[line[found.sample]]
+    touching = found.sample[other & (np.abs(behind) <= BEHIND_SMOOTH_OUTLINE)]
+    kept = np.flatnonzero((behind > BEHIND_SMOOTH_OUTLINE) & ~np.isin(found.sample, touching))
     order = kept[np.lexsort((behind[kept], found.sample[kept]))]
     sample, first = np.unique(found.sample[order], return_index=True)
     number, at = found.number[order[first]], found.places[order[first]]
