@@ -305,7 +305,8 @@ def _edges(
     """The edges of bodies by the numbers of their items, each use as a border of its sheet; and those that are drawn.
     first_sheet: that of the first face of each; wanted: the kinds of lines of each that are drawn.
 
-    An edge at which one of two faces turns away is a contour there, where contours are wanted. Seams are not drawn, but end the image of a sheet.
+    An edge at which one of two faces turns away is a contour there, where contours are wanted. Seams are not drawn, but
+    end the image of a sheet.
     """
     uses = _uses(view, breps, first_sheet)
     if not len(uses.first):

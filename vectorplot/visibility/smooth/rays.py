@@ -450,9 +450,9 @@ def meetings_along(view: View, sheets: Sheets, points: Floats, balls: Balls) -> 
 
 @dataclass(frozen=True, eq=False)
 class Balls:
-    """The whole spheres and ellipsoids among some sheets (s,), and what makes points of space points of the unit sphere:
-    minus centre (s,3), times inverse (s,3,3). Lines meet them in closed form. number (b,): those that hide, boxes:
-    around their images; others: the triangles of all other sheets."""
+    """The whole spheres and ellipsoids among some sheets (s,), and what makes points of space points of the unit
+    sphere: minus centre (s,3), times inverse (s,3,3). Lines meet them in closed form. number (b,): those that hide,
+    boxes: around their images; others: the triangles of all other sheets."""
 
     centre: Floats
     inverse: Floats
