@@ -175,7 +175,7 @@ def _made_by_cuts(view: View, lines: Lines, how: Depth, normals: Floats, points:
         crossed: Bools = np.any(heights > off, axis=1) & np.any(heights < -off, axis=1)
         made |= crossed[lines.item] & np.logical_and(*(np.abs(matmul(end - point, normal)) <= off for end in ends))
     which = np.flatnonzero(made & (lines.kind == LineKind.BOUNDARY))
-    middle = 0.5 * sum(side[which] for side in ends)
+    middle = 0.5 * (ends[0][which] + ends[1][which])
     for number, item in enumerate(how.scene.items if len(which) else ()):
         if isinstance(item.shape, Mesh) and item.material.opacity >= 1.0:
             meets, _ = PlacedTriangles(item.mesh).faces_at(middle, off)

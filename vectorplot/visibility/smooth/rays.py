@@ -469,8 +469,8 @@ class Balls:
             if ball is not None:
                 centre[number], frame[number] = ball.centre, ball.frame
         known = np.array([ball is not None for ball in found], dtype=np.bool_)[targets.sheet]
-        number, boxes = targets.take(known).boxes_of_sheets
-        return cls(centre, inverse_matrix(frame), number, boxes, targets.take(~known))
+        hiding, boxes = targets.take(known).boxes_of_sheets
+        return cls(centre, inverse_matrix(frame), hiding, boxes, targets.take(~known))
 
     def near(self, image: Floats) -> tuple[Ints, Ints]:
         """Pairs of an image (k,2) and a ball in whose box it is, by the numbers of their sheets, in order."""
