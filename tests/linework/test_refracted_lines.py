@@ -199,3 +199,20 @@ def test_what_is_in_glass_behind_glass_is_seen_once(camera, low):
     )
     lengths = [np.hypot(*(s[i == 2][:, 1] - s[i == 2][:, 0]).T).sum() for s, i in (bending, clear)]
     assert lengths[0] == pytest.approx(lengths[1], rel=1e-6) and lengths[0] > 1.0
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("parallel", [True, False])
+def test_what_stands_in_the_floor_of_a_pool_ends_there_with_a_line(parallel):
+    water = vp.Item("WATER", box((-2, -2, 0), (2, 2, 1)), material=vp.Material("transparent", refraction=1.333))
+    floor, stone = vp.Item("FLOOR", box((-2, -2, -0.2), (2, 2, 0))), vp.Item("STONE", Sphere(1.0)).moved(0, 0, -0.6)
+    camera = vp.Camera((0, 0, 9), (0, 0, 0), parallel=parallel)
+    drawing = vp.draw(vp.Scene((water, floor, stone)), camera, curves="polyline")
+    strokes, items = strokes_of(drawing, "refracted")
+    ends = strokes[items == 2] - 0.5 * np.array([drawing.width_mm, drawing.height_mm])
+    radius = np.linalg.norm(ends, axis=2)
+    assert np.ptp(radius) < 0.05
+    around = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1).sum()
+    assert around == pytest.approx(2.0 * np.pi * radius.mean(), rel=1e-3)
+    if parallel:
+        assert radius.mean() == pytest.approx(0.8 * np.linalg.norm(drawing.page_from_world[0, :3]), abs=0.02)

@@ -237,8 +237,8 @@ class _Rays:
 
     @cached_property
     def balls(self) -> Balls:
-        """Those of them that are met in closed form."""
-        return Balls.of(self.picture.sheets)
+        """Those of them that are met in closed form, and all others."""
+        return Balls.of(self.picture.sheets, self.targets)
 
     @cached_property
     def open_items(self) -> Ints:
@@ -551,7 +551,7 @@ def _before_sheets(rays: _Rays, lines: Lines, thrown: _Thrown) -> _Thrown:
     def lit(which: Ints, part: Floats) -> Bools:
         points = _at(lines, thrown.line[which], thrown.low[which] + part * span[which])
         points = _cast(rays, points + BESIDE_SMOOTH_OUTLINE * out[which], planes[:, which])
-        met = meetings_along(rays.view, rays.picture.sheets, rays.targets, points, rays.balls)
+        met = meetings_along(rays.view, rays.picture.sheets, points, rays.balls)
         long = norm(sight_lines.sight(rays.view, points))
         free = np.ones(len(which), dtype=np.bool_)
         free[met.sample[met.t * long[met.sample] > BEHIND_SMOOTH_OUTLINE]] = False
@@ -604,9 +604,12 @@ def _met(eye: _Eye, rays: _Rays, lines: Lines, out: Floats, items: Bools, line: 
     # A little beside the outline the ray does not touch what throws the shadow, and meets the same behind it.
     beside = grazed + BESIDE_SMOOTH_OUTLINE * out[line]
     towards = rays.towards(beside)
-    found = meetings_along(view, sheets, rays.targets, beside - FAR_BEHIND * towards, rays.balls)
+    found = meetings_along(view, sheets, beside - FAR_BEHIND * towards, rays.balls)
     behind = dot(beside[found.sample] - sheets.points(found.number, found.places), towards[found.sample])
-    kept = np.flatnonzero(behind > BEHIND_SMOOTH_OUTLINE)
+    # Where something touches another item light ends there, and goes on to nothing within that.
+    other = sheets.item[found.number] != lines.item[line[found.sample]]
+    touching = found.sample[other & (np.abs(behind) <= BEHIND_SMOOTH_OUTLINE)]
+    kept = np.flatnonzero((behind > BEHIND_SMOOTH_OUTLINE) & ~np.isin(found.sample, touching))
     order = kept[np.lexsort((behind[kept], found.sample[kept]))]
     sample, first = np.unique(found.sample[order], return_index=True)
     number, at = found.number[order[first]], found.places[order[first]]

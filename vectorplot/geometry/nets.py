@@ -30,6 +30,10 @@ FEW_FACES, FEW_TREES = 512, 3
 """Of meshes of more than so few faces so few trees are tried, and none any more once there is one piece."""
 
 
+GRID_OF_TOLERANCE = 0.125
+"""What faces have in common is measured on a grid as fine as this part of the tolerance."""
+
+
 @dataclass(frozen=True, eq=False)
 class Net:
     """The faces of a mesh in the plane.
@@ -289,16 +293,22 @@ def _without_overlaps(net: Net, parent: Ints, edge: Ints, tolerance: float) -> N
 
 
 def _overlapping(net: Net, tolerance: float) -> tuple[Ints, Ints]:
-    """The pairs of faces of one piece that have more in common than a border."""
+    """The pairs of faces of one piece whose common part is wider than the tolerance: twice its area by its perimeter is
+    the radius of the circle in a triangle, and about half the width of a strip. Faces that are joined lie on both sides
+    of their edge."""
     import shapely
 
     areas = polygons_of(net.corners.T, net.mesh.offsets)
     one, two = shapely.STRtree(areas).query(areas, predicate="intersects")
-    some = (one < two) & (net.piece[one] == net.piece[two])
+    sides = np.sort(net.mesh.corner_face[np.stack([net.first, net.second])[:, net.joined]], axis=0)
+    count = len(areas)
+    beside = np.isin(one * count + two, sides[0] * count + sides[1])
+    some = (one < two) & (net.piece[one] == net.piece[two]) & ~beside
     one, two = one[some], two[some]
     may_stop()
-    common = shapely.area(shapely.intersection(areas[one], areas[two]))
-    deep = common > tolerance * np.minimum(shapely.length(areas[one]), shapely.length(areas[two]))
+    # Without a grid GEOS may take one of two triangles that touch for what they have in common.
+    common = shapely.intersection(areas[one], areas[two], grid_size=GRID_OF_TOLERANCE * tolerance)
+    deep = 2.0 * shapely.area(common) > tolerance * shapely.length(common)
     return one[deep], two[deep]
 
 

@@ -25,7 +25,9 @@ from vectorplot.geometry import ragged, records
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.budget import in_turn, unresolved
 from vectorplot.geometry.component_arrays import cross
+from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.projections import Projection
+from vectorplot.geometry.triangles import PlacedTriangles
 from vectorplot.geometry.vectors import normalize
 from vectorplot.pictures.bent_lines import FACETS, Seeming, Things, seeming, things_of
 from vectorplot.pictures.line_sources import LineSources
@@ -164,13 +166,20 @@ def _part(how: Depth, normals: Floats, points: Floats, tolerance: float) -> Scen
 
 
 def _made_by_cuts(view: View, lines: Lines, how: Depth, normals: Floats, points: Floats) -> Bools:
-    """(n,) which lines are borders that items have only since they were cut at planes as of _part."""
+    """(n,) which lines are borders that items have only since they were cut at planes as of _part, but those on faces
+    of something opaque: there items meet."""
     ends = [view.world_of(side) for side in (lines.start, lines.end)]
     made, off = np.zeros(len(lines), dtype=np.bool_), CUT_EDGE_OF_EXTENT * view.scale
     for normal, point in zip(normals, points, strict=True):
         heights = matmul(how.corners - point, normal)
         crossed: Bools = np.any(heights > off, axis=1) & np.any(heights < -off, axis=1)
         made |= crossed[lines.item] & np.logical_and(*(np.abs(matmul(end - point, normal)) <= off for end in ends))
+    which = np.flatnonzero(made & (lines.kind == LineKind.BOUNDARY))
+    middle = 0.5 * (ends[0][which] + ends[1][which])
+    for number, item in enumerate(how.scene.items if len(which) else ()):
+        if isinstance(item.shape, Mesh) and item.material.opacity >= 1.0:
+            meets, _ = PlacedTriangles(item.mesh).faces_at(middle, off)
+            made[which[meets[lines.item[which[meets]] != number]]] = False
     return np.asarray(made & (lines.kind == LineKind.BOUNDARY))
 
 

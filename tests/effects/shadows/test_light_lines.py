@@ -14,7 +14,7 @@ from vectorplot.animation.animation_file import parse_animation
 from vectorplot.curves import Circle
 from vectorplot.geometry import box
 from vectorplot.scene.light import Light
-from vectorplot.surfaces import Capped, Cylinder, ImplicitTorus, Sphere, Torus
+from vectorplot.surfaces import Capped, Cylinder, ImplicitTorus, Sphere, Torus, rod
 from vectorplot.testing import visible_by_rays
 
 SUN = Light((-2.0, -1.0, 2.5), parallel=True, name="SUN")
@@ -380,3 +380,12 @@ def test_without_anything_to_shine_on_there_are_no_lines():
     scene = vp.Scene((vp.Item("line", Circle((0, 0, 0), 1.0)),), (SUN,))
     found = drawn(vp.draw(scene, CAMERA, lines="curve,terminator,shadow"))
     assert len(found) and not len(found.of_kind("terminator", "shadow"))
+
+
+@pytest.mark.slow
+def test_a_can_on_a_can_throws_no_shadow_inside_of_it():
+    cans = [vp.Item("lower", rod((0, 0, 0), (0, 0, 1), 1.0)), vp.Item("upper", rod((0, 0, 1), (0, 0, 2), 0.5))]
+    lamp = Light((-7.0, -1.0, 3.0))
+    points = on_lines(lines_of(vp.Scene(tuple(cans), (lamp,))).of(0).of_kind("shadow"))
+    mantle = points[points[:, 2] < 1.0 - 1e-6]
+    assert len(points) > 10 and ((mantle * [1, 1, 0] * (lamp.position - mantle)).sum(axis=1) > 0.0).all()

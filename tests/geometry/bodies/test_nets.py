@@ -122,3 +122,11 @@ def test_two_bodies_are_two_pieces_and_too_many_faces_are_told():
     triangles = np.tile([(0, 1, 2)], (MOST_FACES + 1, 1))
     with pytest.raises(vp.InputError, match="a net has 50000 at most"):
         net_of(vp.Mesh.from_triangles(np.eye(3), triangles))
+
+
+def test_what_overlaps_by_more_than_the_tolerance_is_found_however_long_the_faces_are_around():
+    at = np.random.default_rng(50).normal(size=(60, 3))
+    net = net_of(hull_mesh(100.0 * at / np.linalg.norm(at, axis=1, keepdims=True)), 0.02)
+    areas = polygons_of(net.corners.T, net.mesh.offsets)
+    assert net.piece.max() == 0
+    assert shapely.area(areas).sum() - shapely.union_all(areas, grid_size=1e-6).area < 0.01

@@ -9,10 +9,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from support.breps import HEIGHT, RADIUS, rod, rod_item
+from support.drawn import drawn
 
 import vectorplot as vp
 from vectorplot.errors import InputWarning
 from vectorplot.scene.exact_bodies import exact_bodies
+from vectorplot.surfaces import rod as round_rod
 from vectorplot.words import DRAWN, LineKind, line_kinds
 
 EYE = np.array([3.0, -7.0, 9.0])
@@ -150,3 +152,11 @@ def test_what_only_triangles_have_is_drawn_from_them_and_said():
         warnings.simplefilter("error")
         vp.paint(scene, vp.Camera(tuple(EYE), (0.0, 0.0, 1.0)))
     assert math.isclose(rod().bounds[1, 2], HEIGHT)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("lines", ["crease", "crease,shadow"])
+@pytest.mark.parametrize("body", [rod_item(), vp.Item("round", round_rod((0, 0, 0), (0, 0, HEIGHT), RADIUS))])
+def test_rims_are_whole_where_creases_are_asked_for_and_contours_are_not(body, lines):
+    drawing = vp.draw(vp.Scene((body,)), vp.Camera((50, 40, 30)), lines=lines, hidden="solid", curves="polyline")
+    assert drawn(drawing).of_kind("crease").length == pytest.approx(4.0 * np.pi * RADIUS, rel=1e-3)

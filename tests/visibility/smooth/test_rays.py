@@ -100,11 +100,12 @@ def test_balls_are_met_in_closed_form_where_newton_meets_them(parallel: bool) ->
     sheets = Sheets(
         tuple(sheet for k, item in enumerate(shapes) for sheet in sheets_of_parametrised(view, item.shape, k, True))
     )
-    balls, targets = Balls.of(sheets), targets_of(view, sheets)
-    assert balls.known.tolist() == [True, True, False]
+    targets = targets_of(view, sheets)
+    balls = Balls.of(sheets, targets)
+    assert balls.number.tolist() == [0, 1] and set(balls.others.sheet.tolist()) == {2}
     points = np.random.default_rng(3).uniform(-0.6, 0.6, (400, 3)) - [0.0, 0.0, 1.5]
-    none = Balls(np.zeros(3, dtype=np.bool_), balls.centre, balls.inverse)
-    one, two = (meetings_along(view, sheets, targets, points, known) for known in (balls, none))
+    none = Balls(balls.centre, balls.inverse, *targets.take(np.zeros(0, dtype=np.intp)).boxes_of_sheets, targets)
+    one, two = (meetings_along(view, sheets, points, known) for known in (balls, none))
     assert len(one.sample) == len(two.sample) > 200 and set(one.number.tolist()) == {0, 1, 2}
     order, other = (np.lexsort((met.t, met.number, met.sample)) for met in (one, two))
     assert one.sample[order].tolist() == two.sample[other].tolist()

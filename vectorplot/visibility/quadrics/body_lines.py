@@ -267,8 +267,8 @@ def _outlines_of_balls(bodies: CappedBodies, before: int, which: Ints) -> Found:
 
 
 def _rims(bodies: CappedBodies, before: int, once: Bools, contour: Bools, crease: Bools, end: int) -> Found:
-    """The rims at one end: contours where one of mantle and cap faces the eye and the other does not, else creases;
-    where neither does the body hides them."""
+    """The rims at one end: contours where one of mantle and cap faces the eye and the other does not and contours are
+    wanted, else creases; where neither does the body hides them."""
     which = np.flatnonzero(bodies.has_cap[:, end] & once & (contour | crease))
     turn, reach = bodies.turn[0][which], bodies.turn[1][which, end]
     shown = np.tile([True, False], (len(which), 1)).T
@@ -278,7 +278,7 @@ def _rims(bodies: CappedBodies, before: int, once: Bools, contour: Bools, crease
     low, high = low.ravel(), high.ravel()
     cap = bodies.faces_eye[body, end]
     outline = mantle != cap
-    wanted = np.where(outline, contour[body], crease[body])
+    wanted = crease[body] | (outline & contour[body])
     # A rim without a part of its own that is turned the other way is a single arc.
     kept = np.flatnonzero(wanted & (high > low))
     body, low, high, outline = body[kept], low[kept], high[kept], outline[kept]
@@ -290,7 +290,7 @@ def _rims(bodies: CappedBodies, before: int, once: Bools, contour: Bools, crease
     inside = bodies.centre[body] + bodies.ends[body].mean(axis=1)[:, None] * bodies.frame[body, 2]
     side = np.where(outline, _side(bodies, start, way, inside), 0)
     arcs = arcs_on(circles, (low, high), LineKind.CREASE, bodies.item[body], _own(before, body), side)
-    arcs.kind[outline] = int(LineKind.CONTOUR)
+    arcs.kind[outline & contour[body]] = int(LineKind.CONTOUR)
     return arcs, _turned_away(bodies, before, body, away)
 
 

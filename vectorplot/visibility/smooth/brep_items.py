@@ -305,7 +305,8 @@ def _edges(
     """The edges of bodies by the numbers of their items, each use as a border of its sheet; and those that are drawn.
     first_sheet: that of the first face of each; wanted: the kinds of lines of each that are drawn.
 
-    An edge at which one of two faces turns away is a contour there. Seams are not drawn, but end the image of a sheet.
+    An edge at which one of two faces turns away is a contour there, where contours are wanted. Seams are not drawn, but
+    end the image of a sheet.
     """
     uses = _uses(view, breps, first_sheet)
     if not len(uses.first):
@@ -320,12 +321,13 @@ def _edges(
     borders = replace(borders, kind=np.full(len(borders), int(LineKind.BOUNDARY)))
     drawn = _curves(uses, leader, np.arange(len(leader)), rows, offsets, alone=False)
     kinds = _kinds(uses)
-    pieces = _pieces(drawn, turned & (kinds == LineKind.CREASE)[drawn.owner])
-    kind = np.where(pieces.outline, int(LineKind.CONTOUR), kinds[pieces.of])
-    drawn = replace(pieces.curves, kind=kind)
     among = np.zeros((max(breps, default=-1) + 1, len(LineKind) + 1), dtype=np.bool_)
     for item, words in wanted.items():
         among[item, [int(word) for word in words]] = True
+    may_turn = (kinds == LineKind.CREASE) & among[drawn.item, int(LineKind.CONTOUR)]
+    pieces = _pieces(drawn, turned & may_turn[drawn.owner])
+    kind = np.where(pieces.outline, int(LineKind.CONTOUR), kinds[pieces.of])
+    drawn = replace(pieces.curves, kind=kind)
     return borders, drawn.take(np.flatnonzero(among[drawn.item, kind]))
 
 

@@ -136,6 +136,16 @@ class Targets:
         low, high = np.minimum(corners[0], corners[1]), np.maximum(corners[0], corners[1])
         return BoxStrips(np.minimum(low, corners[2]) - margin, np.maximum(high, corners[2]) + margin, STRIP)
 
+    @property
+    def boxes_of_sheets(self) -> tuple[Ints, BoxStrips]:
+        """The sheets (s,) that there are triangles of, and a box around all triangles of each."""
+        number, first = np.unique(self.sheet, return_index=True)
+        low, high = self._boxes.low, self._boxes.high
+        if not len(number):
+            return number, BoxStrips(low, high, STRIP)
+        low, high = np.minimum.reduceat(low, first, axis=1), np.maximum.reduceat(high, first, axis=1)
+        return number, BoxStrips(low, high, 1)
+
     def may_reach(self, low: Floats, high: Floats) -> Bools:
         """(k,) which boxes (k,2), from low to high, overlap the one around all of them."""
         return np.asarray(((low <= self.box[1]) & (high >= self.box[0])).all(axis=1))
@@ -424,13 +434,13 @@ AT_ONCE = 1 << 12
 """Sight lines that are met with everything at once."""
 
 
-def meetings_along(view: View, sheets: Sheets, targets: Targets, points: Floats, balls: Balls) -> Met:
+def meetings_along(view: View, sheets: Sheets, points: Floats, balls: Balls) -> Met:
     """All meetings of the sight lines of points (k,3) with sheets in front of these, each once; balls: those of the
-    sheets."""
+    sheets, and all others."""
     none, nowhere = np.zeros(0, dtype=np.intp), np.zeros((0, 3))
     parts = [Met(none, none, np.zeros(0), nowhere)]
     image = sight_lines.image(view, points)
-    for first in in_turn(range(0, len(points) if len(targets) else 0, AT_ONCE)):
+    for first in in_turn(range(0, len(points), AT_ONCE)):
         own = points[first : first + AT_ONCE]
         count = len(own)
         nothing, unknown = np.full(count, -1), np.full((count, 3), np.nan)
@@ -438,36 +448,43 @@ def meetings_along(view: View, sheets: Sheets, targets: Targets, points: Floats,
         samples = Samples(own, nothing, unknown, nothing[:, None], unknown[:, None], no, no)
         there = image[first : first + AT_ONCE]
         way = sight_lines.sight(view, own)
-        sample, triangle = targets.near_boxes(there, there)
-        number = targets.sheet[triangle]
-        is_round = balls.known[number]
-        pair = np.unique((sample * len(sheets) + number)[is_round])
-        found = [balls.met(view, own, way, *np.divmod(pair, len(sheets)))]
-        if not is_round.all():
-            others = sample[~is_round], triangle[~is_round]
-            found.append(_meetings(view, sheets, targets, samples, way, others))
+        found = [balls.met(view, own, way, *balls.near(there))]
+        pairs = balls.others.near_boxes(there, there)
+        if len(pairs[0]):
+            found.append(_meetings(view, sheets, balls.others, samples, way, pairs))
         parts += [replace(each, sample=each.sample + first) for each in found]
     return records.joined(parts)
 
 
 @dataclass(frozen=True, eq=False)
 class Balls:
-    """Which of some sheets (s,) are whole spheres or ellipsoids, known (s,), and what makes points of space points of
-    the unit sphere: minus centre (s,3), times inverse (s,3,3). Lines meet them in closed form."""
+    """The whole spheres and ellipsoids among some sheets (s,), and what makes points of space points of the unit
+    sphere: minus centre (s,3), times inverse (s,3,3). Lines meet them in closed form. number (b,): those that hide,
+    boxes: around their images; others: the triangles of all other sheets."""
 
-    known: Bools
     centre: Floats
     inverse: Floats
+    number: Ints
+    boxes: BoxStrips
+    others: Targets
 
     @classmethod
-    def of(cls, sheets: Sheets) -> Balls:
-        """Those of some sheets."""
+    def of(cls, sheets: Sheets, targets: Targets) -> Balls:
+        """Those of some sheets and their triangles."""
         found = [ball_of(sheet.surface) if isinstance(sheet, ParametricSheet) else None for sheet in sheets]
         centre, frame = np.zeros((len(found), 3)), np.tile(np.eye(3), (len(found), 1, 1))
         for number, ball in enumerate(found):
             if ball is not None:
                 centre[number], frame[number] = ball.centre, ball.frame
-        return cls(np.array([ball is not None for ball in found], dtype=np.bool_), centre, inverse_matrix(frame))
+        known = np.array([ball is not None for ball in found], dtype=np.bool_)[targets.sheet]
+        hiding, boxes = targets.take(known).boxes_of_sheets
+        return cls(centre, inverse_matrix(frame), hiding, boxes, targets.take(~known))
+
+    def near(self, image: Floats) -> tuple[Ints, Ints]:
+        """Pairs of an image (k,2) and a ball in whose box it is, by the numbers of their sheets, in order."""
+        sample, which = self.boxes.overlapping(image.T, image.T)
+        order = np.lexsort((which, sample))
+        return sample[order], self.number[which[order]]
 
     def met(self, view: View, points: Floats, ways: Floats, sample: Ints, number: Ints) -> Met:
         """Where the sight lines, along ways (k,3), of points (k,3) meet balls, for pairs of a sample and a sheet; not

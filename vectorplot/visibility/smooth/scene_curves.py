@@ -57,8 +57,11 @@ class Rims:
         return replace(found, second_places=found.places)
 
 
-def with_rims(view: View, sheets: tuple[SmoothSheet, ...], number: int, parts: Sequence[Curves]) -> list[Curves]:
-    """The curves of a sheet, its borders at sharp edges cut into what is outline, a contour, and what is a crease.
+def with_rims(
+    view: View, sheets: tuple[SmoothSheet, ...], number: int, parts: Sequence[Curves], wanted: Collection[LineKind]
+) -> list[Curves]:
+    """The curves of a sheet, its borders at sharp edges cut into what is outline, a contour, and what is a crease; all
+    of them creases where no contours are among the kinds that are wanted.
 
     An edge belongs to the first of the two sheets that meet there; that of the second one is left out.
     """
@@ -75,7 +78,11 @@ def with_rims(view: View, sheets: tuple[SmoothSheet, ...], number: int, parts: S
         if own.any():
             other = sheets[number + 1]
             assert isinstance(other, ParametricSheet)
-            curves = _cut(view, sheet, other, part.take(np.flatnonzero(own)))
+            curves = part.take(np.flatnonzero(own))
+            if LineKind.CONTOUR in wanted:
+                curves = _cut(view, sheet, other, curves)
+            else:
+                curves = replace(curves, kind=np.full(len(curves), int(LineKind.CREASE)))
             families = tuple(Rims(sheet, family.sheet, number + 1) for family in curves.families)
             second = np.full(len(curves), number + 1)
             result.append(replace(curves, families=families, second_places=curves.places, second_sheet=second))
@@ -393,7 +400,7 @@ def traced_scene(
         if _holds_eye(view, sheet):
             doubts.append((item.name, "the eye is on the surface: what this hides cannot be told"))
         done((1.0 + (number + 1) / (len(sheets) + 1)) / 2.0)
-        lines = with_rims(view, sheets, number, parts)
+        lines = with_rims(view, sheets, number, parts, wanted)
         drawn += _of_kinds(lines, wanted)
         if item.hides:
             edges += _of_kinds(parts, HIDING)
