@@ -27,8 +27,8 @@ TOUCHING = 4.0
 """Axes of rods that pass the middles of balls within so many tolerances run through them."""
 
 BENT = 0.01
-"""Where a rod leaves a ball beside whose middle it runs, as the rods of double bonds do, a plane stands for the curve if
-it is off by no more than such a part of the radius of the ball."""
+"""Where a rod leaves a ball beside whose middle it runs, as the rods of double bonds do, a plane stands for the curve
+if it is off by no more than such a part of the radius of the ball."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,8 +61,8 @@ def body_order(bodies: QuadricBodies, box: Floats, tolerance: float) -> BodyOrde
     """The painter's order of bodies with boxes (4,n) in the image: smallest and largest x, and y.
 
     Of two balls the one with the smaller power of the eye is in front, and is cut by their radical plane where they
-    meet; rods that stick in a ball, through its middle or a little beside it, end where they leave it; of all others a plane lies between
-    two, and that one is in front which is on the eye's side of it.
+    meet; rods that stick in a ball, through its middle or a little beside it, end where they leave it; of all others a
+    plane lies between two, and that one is in front which is on the eye's side of it.
     Edge cases: None where bodies pierce each other in another way, or lie on one another in circles.
     Source: Aurenhammer (1987) for balls; Gilbert (1966) for planes between convex bodies.
     """
@@ -146,9 +146,9 @@ painted later."""
 
 @dataclass(frozen=True, eq=False)
 class _Sticking:
-    """Rods in balls: demands (2,k), what is painted before what; cuts of balls, and of rods that leave them aslant; outside: the bodies without the parts
-    in balls, painted: with what goes on under balls; done (m,): the pairs that are settled; inside (n,): rods that are
-    hidden."""
+    """Rods in balls: demands (2,k), what is painted before what; cuts of balls, and of rods that leave them aslant;
+    outside: the bodies without the parts in balls, painted: with what goes on under balls; done (m,): the pairs that
+    are settled; inside (n,): rods that are hidden."""
 
     demands: Ints
     cuts: BodyCuts
