@@ -394,9 +394,10 @@ def shared_scale(
     Errors: InputError for central projections, which have no scale, and where there is no room.
     """
     left, slope = width_mm - (len(drawings) - 1) * gap_mm, 0.0
-    for drawing, other in zip(drawings, others or drawings, strict=True):
+    for number, (drawing, other) in enumerate(zip(drawings, others or drawings, strict=True), start=1):
         if any(drawing.page_from_world[3, :3]):
-            raise InputError("panels at one scale need parallel projections, such as main views")
+            which = f"panel {number} of {len(drawings)} is in perspective"
+            raise InputError(f"panels at one scale need parallel projections, such as main views: {which}")
         scale, second = (float(norm(one.page_from_world[0, :3])) for one in (drawing, other))
         grows = drawing.width_mm / scale if second == scale else (drawing.width_mm - other.width_mm) / (scale - second)
         left -= drawing.width_mm - grows * scale
