@@ -97,6 +97,13 @@ def test_bodies_that_pierce_each_other_are_seen_as_rays_see_them(made, seed, lig
     assert_right(scene, camera, steps=5.0, rarely=20.0)
 
 
+@pytest.mark.parametrize("eye", [(6, 3, 4), (-6, 3, 2), (0, 0, 9), (8, 0.5, 0.2)])
+def test_rods_side_by_side_leave_balls_beside_their_middles(eye):
+    balls = Sphere(0.425), Sphere(0.38, (1.2, 0, 0))
+    rods = (rod((0.3, y, 0), (0.9, y, 0), 0.07) for y in (-0.1, 0.1))
+    assert_right(scene_of(*balls, *rods), vp.Camera(eye), steps=5.0, rarely=20.0)
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("word", ["normal", "shiny", "mat"])
 @pytest.mark.parametrize("width", [30, 100, 200])

@@ -286,6 +286,7 @@ def panels(
     size_mm: float | str = 3.5,
     text: Literal["strokes", "real"] | None = None,
     title: str = "",
+    margin_mm: float = 0.0,
 ) -> Drawing:
     """A figure of drawings in a row, which stand on one line, with letters above them.
 
@@ -303,17 +304,20 @@ def panels(
         Letters of a pen, or texts in a font (None: texts, if some drawing has texts).
     title : str
         What the figure shows.
+    margin_mm : float
+        Around the row: a half of the width of pens that draw the edges of pages.
 
     Returns
     -------
     Drawing
-        On a page that is as large as the row. What is lowest in every panel, but for its labels, stands on one line,
-        and so do the letters.
+        On a page that is as large as the row and its margin. What is lowest in every panel, but for its labels,
+        stands on one line, and so do the letters.
 
     Raises
     ------
     InputError
-        For no drawings or more than 26, for letters without an a or A, and for a gap that is negative or not finite.
+        For no drawings or more than 26, for letters without an a or A, and for a gap or a margin that is negative or
+        not finite.
 
     Examples
     --------
@@ -328,17 +332,19 @@ def panels(
         raise InputError(f"a figure of {len(drawings)} panels: expected 1 to {MOST_PANELS}")
     if not 0.0 <= gap_mm < math.inf:
         raise InputError(f"a gap of {gap_mm:g} mm: expected a length that is finite and not negative")
+    if not 0.0 <= margin_mm < math.inf:
+        raise InputError(f"a margin of {margin_mm:g} mm: expected a length that is finite and not negative")
     found = re.search("a", letters, re.IGNORECASE)
     if letters and not found:
         raise InputError(f"letters of panels {letters!r}: expected the first one, with an a or A, such as 'a)'")
     size = capital_height(size_mm)
     foot = np.array([_lowest_mm(drawing) for drawing in drawings])
-    low = foot.max() - foot
-    left = np.concatenate([[0.0], np.cumsum([drawing.width_mm + gap_mm for drawing in drawings])]).tolist()
+    low = margin_mm + foot.max() - foot
+    left = margin_mm + np.cumsum([0.0, *(drawing.width_mm + gap_mm for drawing in drawings)])
     high = float(max(y + drawing.height_mm for y, drawing in zip(low.tolist(), drawings, strict=True)))
     row = 0.0 if found is None else (1.0 + 2.0 * LETTER_GAP) * size
-    sheet = Sheet(Page(left[-1] - gap_mm, high + row, 0.0), title)
-    for drawing, x, y in zip(drawings, left, low.tolist(), strict=False):
+    sheet = Sheet(Page(float(left[-1]) - gap_mm + margin_mm, high + row + margin_mm, 0.0), title)
+    for drawing, x, y in zip(drawings, left.tolist(), low.tolist(), strict=False):
         sheet = sheet.place(drawing, x, y)
     whole = sheet.drawing()
     if found is None:
@@ -347,7 +353,9 @@ def panels(
         text = "real" if any(layer.texts for drawing in drawings for layer in drawing.layers) else "strokes"
     set_ = lettered if text == "strokes" else typeset
     names = [letters[: found.start()] + chr(ord(found[0]) + k) + letters[found.end() :] for k in range(len(drawings))]
-    made = [set_(name, (x, high + LETTER_GAP * size), size_mm=size) for name, x in zip(names, left, strict=False)]
+    made = [
+        set_(name, (x, high + LETTER_GAP * size), size_mm=size) for name, x in zip(names, left.tolist(), strict=False)
+    ]
     strokes = [one.strokes[k] for one in made for k in range(len(one.strokes))]
     texts = Texts.joined([one.texts for one in made])
     marks: tuple[Mark, ...] = (*([page_strokes(strokes)] if strokes else []), *([texts] if len(texts) else []))
@@ -386,9 +394,10 @@ def shared_scale(
     Errors: InputError for central projections, which have no scale, and where there is no room.
     """
     left, slope = width_mm - (len(drawings) - 1) * gap_mm, 0.0
-    for drawing, other in zip(drawings, others or drawings, strict=True):
+    for number, (drawing, other) in enumerate(zip(drawings, others or drawings, strict=True), start=1):
         if any(drawing.page_from_world[3, :3]):
-            raise InputError("panels at one scale need parallel projections, such as main views")
+            which = f"panel {number} of {len(drawings)} is in perspective"
+            raise InputError(f"panels at one scale need parallel projections, such as main views: {which}")
         scale, second = (float(norm(one.page_from_world[0, :3])) for one in (drawing, other))
         grows = drawing.width_mm / scale if second == scale else (drawing.width_mm - other.width_mm) / (scale - second)
         left -= drawing.width_mm - grows * scale

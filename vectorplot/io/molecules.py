@@ -267,7 +267,7 @@ HALF_SIZES = {"tube": (0.5, 0.5), "ribbon": (1.2, 0.3)}
 
 CHAIN_COLOURS = ("blue", "orange", "green", "magenta", "cyan", "yellow", "pink", "gray")
 
-STEPS, AROUND = 12, 16
+STEPS, AROUND = 16, 24
 """Sections of a band for each atom of its chain, and corners of a section: so many that it looks round."""
 
 
@@ -278,7 +278,7 @@ def _band(molecule: Molecule, number: int, style: str) -> Item:
     spline = spline_curve(points, CubicSpline())
     t = np.linspace(spline.start, spline.end, STEPS * (len(points) - 1) + 1)
     middle, way = spline.points(t), normalize(spline.tangents(t))
-    side = np.stack([np.interp(t, np.linspace(t[0], t[-1], len(points)), one) for one in _sides(points).T], axis=1)
+    side = spline_curve(_sides(points), CubicSpline()).points(t)
     side = normalize(side - component_sum(side * way)[:, None] * way)
     up = cross(way, side)
     turn = np.arange(AROUND) * (2.0 * np.pi / AROUND)
@@ -293,7 +293,9 @@ def _band(molecule: Molecule, number: int, style: str) -> Item:
     corners = np.concatenate([walls, place[0, ::-1], place[-1]])
     sizes = np.concatenate([np.full(len(walls) // 4, 4), (AROUND, AROUND)])
     colour = CHAIN_COLOURS[number % len(CHAIN_COLOURS)]
-    return Item(f"chain_{number + 1}", Mesh(vertices, corners, ragged.offsets(sizes)), colour, lines=("contour",))
+    return Item(
+        f"chain_{number + 1}", Mesh(vertices, corners, ragged.offsets(sizes)), colour, default_lines=("contour",)
+    )
 
 
 def _sides(points: Floats) -> Floats:

@@ -204,7 +204,7 @@ class Draft:
     mesh_looks: FaceLooks | None = None
     surface: Surface | ImplicitSurface | None = None
     curve: Curve | None = None
-    terrain: Mesh | None = None
+    terrain: tuple[Mesh, float] | None = None
     curves = CurveDraft()
     trims: tuple[Any, ...] = ()
     trim_holes: tuple[Any, ...] = ()
@@ -261,7 +261,8 @@ def finished(draft: Draft, words: Words, parts: Sequence[Mesh]) -> Item:
             if draft.curves:
                 from vectorplot.io.scene_surfaces import curves_of
 
-                curves = curves_of(draft.curves, shape, shape.bounds)
+                times = None if draft.terrain is None else draft.terrain[1]
+                curves = curves_of(draft.curves, shape, shape.bounds, times)
             looks = _face_looks(draft, shape)
     except InputError as error:
         if error.file is not None:
@@ -513,7 +514,7 @@ def _check_patterns(patterns: Sequence[Pattern], mesh: Mesh) -> None:
 
 def _terrain(draft: Draft, words: Words, parts: Sequence[Mesh]) -> Mesh:
     assert draft.terrain is not None
-    return placed(draft.terrain, draft.placement)
+    return placed(draft.terrain[0], draft.placement)
 
 
 _SHAPES: dict[str, Callable[[Draft, Words, Sequence[Mesh]], Mesh]] = {

@@ -337,6 +337,8 @@ class _Reader(ItemReader):
                     self.source.fail(draft.kind_index, f"{draft.owner}{name} is a {what}: only solids are intersected")
             parts = tuple(self.items[place].mesh for place in places)
             self.parts.update(places)
+        if draft.terrain is not None:
+            self.exaggerated(draft.terrain[1])
         if draft.curves.lit_index:
             self.lit.append((len(self.items), draft))
         self.places[draft.name] = len(self.items)
@@ -346,6 +348,11 @@ class _Reader(ItemReader):
             self.items.append(finished(draft.at(number), self.source, parts))
             if len(self.items) > MAX_ITEMS:
                 self.source.fail(draft.index, f"{draft.owner}more than {MAX_ITEMS} items")
+
+    def exaggerated(self, times: float) -> None:
+        """What heights of the scene are multiplied with: those of its first terrain that is drawn higher or lower."""
+        if self.settings.exaggeration == 1.0:
+            self.settings = replace(self.settings, exaggeration=times)
 
     def include(self) -> None:
         """The items and lights of another scene, or the parts of a CAD system, and where they stand."""
@@ -363,6 +370,7 @@ class _Reader(ItemReader):
         self.at += 2
         self.modifiers(draft)
         self.lights += scene.lights
+        self.exaggerated(scene.exaggeration)
         self.repeated(scene.items, draft)
 
     def assembly(self) -> None:

@@ -25,7 +25,7 @@ from vectorplot.io.surface_line_words import AXES, CurveDraft
 from vectorplot.io.terrain_files import land_of_file
 from vectorplot.scene.added_lines import evenly_between, least_extent
 from vectorplot.scene.extent import smooth_bounds
-from vectorplot.scene.surface_lines import Section, SurfaceLines, Vector, with_index_lines
+from vectorplot.scene.surface_lines import Section, SurfaceLines, Vector, round_heights, with_index_lines
 from vectorplot.scene.terrains import terrain_mesh
 from vectorplot.surfaces.placed_surface import PlacedImplicit, PlacedSurface
 from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_implicit, is_parametrised
@@ -75,11 +75,18 @@ def checked_bounds(shape: Surface | ImplicitSurface) -> Floats:
     return bounds
 
 
-def curves_of(draft: CurveDraft, shape: Mesh | Surface | ImplicitSurface, bounds: Floats) -> SurfaceLines:
-    """The lines that a draft asks for on a surface or a polyhedron that stands in its place, within bounds (2,3)."""
+def curves_of(
+    draft: CurveDraft, shape: Mesh | Surface | ImplicitSurface, bounds: Floats, times: float | None = None
+) -> SurfaceLines:
+    """The lines that a draft asks for on a surface or a polyhedron that stands in its place, within bounds (2,3);
+    times: what the heights of a terrain are multiplied with, before which those of its level lines are round."""
     sections: tuple[Section, ...] = ()
     for planes in draft.planes:
-        offsets = planes.offsets or even_offsets(shape, bounds, planes.normal, planes.count)
+        offsets = planes.offsets
+        if times is not None and not offsets and not planes.slices and planes.normal == AXES["z"]:
+            low, high = (bounds[:, 2] / times).tolist()
+            offsets = tuple(times * height for height in round_heights(low, high, planes.count))
+        offsets = offsets or even_offsets(shape, bounds, planes.normal, planes.count)
         sections += with_index_lines(
             Section(planes.normal, offsets, planes.slices, numbered=planes.numbered), planes.every
         )
@@ -148,8 +155,9 @@ TERRAIN_SUFFIXES = (".asc", ".xyz")
 """Of the files of heights that a scene may name."""
 
 
-def read_terrain_mesh(words: Words, at: int, owner: str, path: Path | None = None) -> tuple[Mesh, int]:
-    """The terrain whose slots stand at a word, or of a file of heights, and the word behind them."""
+def read_terrain_mesh(words: Words, at: int, owner: str, path: Path | None = None) -> tuple[tuple[Mesh, float], int]:
+    """The terrain whose slots stand at a word, or of a file of heights, what its heights are multiplied with, and the
+    word behind them."""
     if path is not None:
         slots = {name: TERRAIN.slots[name] for name in ("densified", "exaggeration")}
         of_file = Family(slots, (), partial(_of_file, land_of_file(path)))
@@ -166,7 +174,7 @@ def _build(
     cells: tuple[float, float] | None,
     densified: int,
     exaggeration: float,
-) -> Mesh:
+) -> tuple[Mesh, float]:
     if heights is not None and points is None:
         if cells is not None:
             raise InputError("terrain: 'cells' are for points")
@@ -181,12 +189,12 @@ def _build(
         raise InputError("terrain: expected 'heights' or 'points'")
     if densified != 1:
         land = densified_terrain(land, densified)
-    return terrain_mesh(exaggerated(land, exaggeration))
+    return terrain_mesh(exaggerated(land, exaggeration)), exaggeration
 
 
-def _of_file(land: Terrain, *, densified: int, exaggeration: float) -> Mesh:
+def _of_file(land: Terrain, *, densified: int, exaggeration: float) -> tuple[Mesh, float]:
     land = land if densified == 1 else densified_terrain(land, densified)
-    return terrain_mesh(exaggerated(land, exaggeration))
+    return terrain_mesh(exaggerated(land, exaggeration)), exaggeration
 
 
 _PAIR: Any = Slot(read_numbers(2))

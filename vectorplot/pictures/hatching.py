@@ -973,12 +973,16 @@ def hatched(
 
 
 def _toned(scene: Scene, how: Sequence[Hatching | Stippling | None]) -> Scene:
-    """The scene, in gray where only the light counts."""
-    items = (
-        item if one is not None and one.by == "colour" else replace(item, colour=GRAY, patterns=())
-        for item, one in zip(scene.items, how, strict=True)
-    )
-    return replace(scene, items=tuple(items))
+    """The scene, in gray where only the light counts; what hides lines and bends no light hides tones too."""
+
+    def toned(item: Item, one: Hatching | Stippling | None) -> Item:
+        look = item.material
+        if look.is_clear and look.refraction == 1.0 and item.hides:
+            word = "shiny" if look.word == "transparent" else look.word
+            item = replace(item, material=replace(look, word=word, opacity=1.0))
+        return item if one is not None and one.by == "colour" else replace(item, colour=GRAY, patterns=())
+
+    return replace(scene, items=tuple(toned(item, one) for item, one in zip(scene.items, how, strict=True)))
 
 
 def _shows_more(scene: Scene, item: Item, hatching: Hatching | Stippling | None) -> bool:

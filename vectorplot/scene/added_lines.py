@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -9,7 +10,7 @@ import numpy as np
 
 from vectorplot.arrays import Floats
 from vectorplot.curves.curve import is_curve
-from vectorplot.errors import InputError
+from vectorplot.errors import InputError, InputWarning
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.rotations import axis_frame
 from vectorplot.scene.item import Item
@@ -65,6 +66,11 @@ def with_lines(
     InputError
         For more than 10000 planes in all, and as in SurfaceLines.
 
+    Warns
+    -----
+    InputWarning
+        Where all planes of a direction are beside the scene.
+
     Notes
     -----
     Edge cases: planes and angles that are given several times count once.
@@ -85,6 +91,13 @@ def with_lines(
     added = replace(added, smooth_contours=smooth_contours)
     if not added and detail == 1.0 and not smooth_contours:
         return scene
+    for normal in dict.fromkeys(section.normal for section in sections if section.offsets and _surfaces(scene).items):
+        low, high = _extent_along(_surfaces(scene), normal)
+        ours = [section for section in sections if section.normal == normal]
+        if not any(low <= offset <= high for section in ours for offset in section.offsets):
+            times = heights_times(scene, ours[0])
+            reach = f"it reaches from {low / times:.6g} to {high / times:.6g} along their normal"
+            warnings.warn(f"sections: all planes are beside the scene: {reach}", InputWarning, stacklevel=2)
     return replace(scene, items=tuple(item if is_curve(item.shape) else _with(item, added) for item in scene.items))
 
 

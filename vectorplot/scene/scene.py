@@ -76,7 +76,7 @@ class Scene(Movable["Scene"]):
         How the measures of dimensions are written (None: with six digits).
     exaggeration : float
         What heights in it were multiplied with: those that pictures write, on level lines, beside boxes and colour
-        bars, are divided by it. Scene files say nothing of it.
+        bars, are divided by it. Of scene files it is that of their terrains.
     scale_bar : ScaleBar, optional
         A bar below the picture that is as long as a length in it.
     sheet : SheetSettings, optional

@@ -11,6 +11,7 @@ from support.scene_rays import faces_of, lacking, page_rays
 import vectorplot as vp
 from vectorplot import surfaces
 from vectorplot.drawing.hatching import LEAST_MM
+from vectorplot.geometry import box
 from vectorplot.geometry.polylines import segments
 from vectorplot.io.scene_language import parse_scene
 from vectorplot.io.scene_writer import write_scene
@@ -131,3 +132,14 @@ def test_all_strokes_of_a_round_body_in_a_shadow_are_on_its_lines() -> None:
     strokes = strokes_of(vp.draw(scene, vp.Camera((40, -50, 35), (1, 0, 1)), page="A6", lines="none", hatch=hatching))
     line = strokes.points[:, 1] / 0.8 - 0.5
     assert len(strokes) > 100 and np.abs(line - np.rint(line)).max() < 1e-6
+
+
+def test_clear_things_that_hide_lines_hide_tones():
+    def strokes(material):
+        jar = vp.Item("jar", box((2, 2, 3)), "cyan", material, occludes=True)
+        scene = vp.Scene((jar, vp.Item("inside", box((1, 1, 1)).moved(0.5, 0.5, 0.5), "black")))
+        drawing = vp.draw(scene, "iso", page="40x40", hatch=vp.Hatching("colour"))
+        return [layer.strokes for layer in drawing.layers if layer.name == "hatch"]
+
+    glass, solid = strokes(vp.Material("normal", 0.3)), strokes(vp.Material("normal"))
+    np.testing.assert_array_equal(glass[0][0].points, solid[0][0].points)

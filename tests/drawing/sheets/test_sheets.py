@@ -156,3 +156,8 @@ def test_the_command_makes_a_figure_as_wide_as_its_page(tmp_path):
     assert run([*words, "--with", "draw --view front --margin 1 --text real", "-o", str(out)]) == 0
     assert json.loads(out.read_text())["page_mm"][0] == pytest.approx(80.0, abs=0.01)
     assert run([*words, "--columns", "2", "-o", str(out)]) == 2
+    assert run([*words, "--with", "draw --view front --pen 2", "-o", str(out)]) == 0
+    points = points_of(figure := vp.read(out))
+    assert figure.width_mm == pytest.approx(80.0, abs=0.01)
+    np.testing.assert_allclose(points.min(axis=0), 1.0, atol=0.01)
+    assert points[:, 0].max() == pytest.approx(79.0, abs=0.01)

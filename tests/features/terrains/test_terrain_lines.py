@@ -140,6 +140,12 @@ TEXT = """HILLS terrain 0 1 0 0, 1 4 2 1, 0 2 6 1, 0 1 2 0 x 0 30 y 0 30 densifi
 """
 
 
+def test_level_lines_of_exaggerated_terrains_have_round_heights_and_their_numbers():
+    land = parse_scene("T terrain 0 33, 0 33 x 0 60 y 0 60 exaggeration 3 level_lines 6 numbered")
+    written = [one for layer in vp.draw(land, "top", text="real").layers for one in layer.texts]
+    assert {text for one in written for text in one.strings} == {"5", "10", "15", "20", "25", "30"}
+
+
 @pytest.mark.slow
 def test_words_of_scene_files():
     scene = parse_scene(TEXT)

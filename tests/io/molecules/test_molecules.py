@@ -21,6 +21,7 @@ from vectorplot.geometry.mesh_repair import is_closed_oriented
 from vectorplot.io import Molecule, molecule_scene, read_molecule
 from vectorplot.io.molecules import bond_orders, bonds_between, elements_of
 from vectorplot.save import write
+from vectorplot.words import LineKind
 
 WATER = "3\nwater\nO 0 0 0\nH 0.757 0.586 0\nH -0.757 0.586 0\n"
 
@@ -334,6 +335,15 @@ def test_chains_of_files_run_through_their_backbones_and_ligands_stay_atoms(tmp_
     assert names == ["Ca21", "chain_1", "chain_2"]
     out = tmp_path / "h.svg"
     assert run(["draw", str(tmp_path / "h.pdb"), "--molecules", "ribbon", "-o", str(out)]) == 0 and out.stat().st_size
+
+
+def test_bands_have_the_lines_that_are_asked_for():
+    chain = Molecule("h", ("C",) * 4, HELIX[:4], np.zeros((0, 2), dtype=int), chains=(np.arange(4),))
+    scene = molecule_scene(chain, "ribbon")
+    for asked, drawn in ((None, {"CONTOUR"}), (("crease",), {"CREASE"})):
+        layers = vp.draw(scene, "iso", lines=asked, page="40x40").layers
+        kinds = np.concatenate([paths.kind for layer in layers for paths in layer.strokes])
+        assert {LineKind(kind).name for kind in kinds.tolist()} == drawn
 
 
 def test_a_chain_of_two_atoms_and_a_straight_one_have_bands_and_none_is_an_error(tmp_path):

@@ -75,3 +75,8 @@ def test_scenes_without_extent_and_too_many_planes_are_refused():
             even_sections(flat, (1, 0, 0), count)
         with pytest.raises(InputError, match="expected 1 to 10000"):
             round_sections(flat, (1, 0, 0), count)
+
+
+def test_planes_that_are_all_beside_the_scene_are_told():
+    with pytest.warns(vp.InputWarning, match="beside the scene: it reaches from 0 to 3 along"):
+        with_lines(vp.Scene((BOX,)), sections=(Section((0, 0, 1), (5.0, 7.0)),))

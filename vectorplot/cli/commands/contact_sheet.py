@@ -196,13 +196,17 @@ def _figure(
 
         # How wide they are beside each other tells the scale that they have room at; two such widths tell it exactly.
         first = drawn("fit", 0.0)
+        # Pens draw on both sides of the edges of the picture.
+        pen = max((layer.pen.width_mm for one in first for layer in one.layers if layer.strokes), default=0.0)
+        width -= pen
         scale = shared_scale(first, width, told["gap_mm"])
         text: Literal["strokes", "real"] = "real" if "real" in verb else "strokes"
         found = drawn(f"scale {scale!r}", 0.3)
         beside = (len(found) - 1) * told["gap_mm"]
         if abs(sum(one.width_mm for one in found) + beside - width) > AS_WIDE_MM:
             found = drawn(f"scale {shared_scale(found, width, told['gap_mm'], first)!r}", 0.6)
-        return panels(found, gap_mm=told["gap_mm"], letters=told["panels"], text=text, title=told["title"])
+        how = {"gap_mm": told["gap_mm"], "letters": told["panels"], "title": told["title"], "margin_mm": 0.5 * pen}
+        return panels(found, text=text, **how)
 
 
 def _cells(inputs: Sequence[str], vary: Sequence[tuple[str, Cell]]) -> list[tuple[str, str, Cell]]:

@@ -26,6 +26,10 @@ ROUNDS = 48
 TOUCHING = 4.0
 """Axes of rods that pass the middles of balls within so many tolerances run through them."""
 
+BENT = 0.01
+"""Where a rod leaves a ball beside whose middle it runs, as the rods of double bonds do, a plane stands for the curve
+if it is off by no more than such a part of the radius of the ball."""
+
 
 @dataclass(frozen=True, eq=False)
 class BodyCuts(Elements):
@@ -57,8 +61,8 @@ def body_order(bodies: QuadricBodies, box: Floats, tolerance: float) -> BodyOrde
     """The painter's order of bodies with boxes (4,n) in the image: smallest and largest x, and y.
 
     Of two balls the one with the smaller power of the eye is in front, and is cut by their radical plane where they
-    meet; rods whose axis runs through the middle of a ball end where they leave it; of all others a plane lies between
-    two, and that one is in front which is on the eye's side of it.
+    meet; rods that stick in a ball, through its middle or a little beside it, end where they leave it; of all others a
+    plane lies between two, and that one is in front which is on the eye's side of it.
     Edge cases: None where bodies pierce each other in another way, or lie on one another in circles.
     Source: Aurenhammer (1987) for balls; Gilbert (1966) for planes between convex bodies.
     """
@@ -142,9 +146,9 @@ painted later."""
 
 @dataclass(frozen=True, eq=False)
 class _Sticking:
-    """Rods in balls: demands (2,k), what is painted before what; cuts of balls; outside: the bodies without the parts
-    in balls, painted: with what goes on under balls; done (m,): the pairs that are settled; inside (n,): rods that are
-    hidden."""
+    """Rods in balls: demands (2,k), what is painted before what; cuts of balls, and of rods that leave them aslant;
+    outside: the bodies without the parts in balls, painted: with what goes on under balls; done (m,): the pairs that
+    are settled; inside (n,): rods that are hidden."""
 
     demands: Ints
     cuts: BodyCuts
@@ -164,9 +168,19 @@ def _rods(bodies: QuadricBodies, sphere: Bools, one: Ints, other: Ints, toleranc
     arm = bodies.centre[:, ball] - bodies.centre[:, stick]
     x, y, z = (sum(arm[k] * bodies.inverse[k, j, stick] for k in range(3)) for j in range(3))
     r, length, ball_radius = bodies.sizes[0, stick], bodies.sizes[2, stick], bodies.sizes[0, ball]
-    half = np.sqrt(np.maximum((ball_radius - r) * (ball_radius + r), 0.0)) / length
-    near = (np.hypot(x, y) * r <= TOUCHING * tolerance) & (ball_radius > r) & (z + half > 0.0) & (z - half < 1.0)
-    pair, stick, ball, z, half, r = (row[near] for row in (pair, stick, ball, z, half, r))
+    off = np.hypot(x, y) * r
+    tilted = off > TOUCHING * tolerance
+    # How far along the axis the rod leaves the ball: at its axis, and where it is farthest from and next to the middle.
+    reach = (ball_radius - r) * (ball_radius + r) - np.where(tilted, off * off, 0.0)
+    at_axis, outer, inner = (
+        np.sqrt(np.maximum(reach + beyond * np.where(tilted, off * r, 0.0), 0.0)) for beyond in (0.0, -2.0, 2.0)
+    )
+    rise = 0.25 * (2.0 * at_axis + outer + inner)
+    half, slope = rise / length, (inner - outer) / (2.0 * r)
+    straight = np.abs(at_axis - rise) <= BENT * ball_radius
+    near = (off + r < ball_radius) & straight & (z + half > 0.0) & (z - half < 1.0)
+    pair, stick, ball, z, half, r, rise = (row[near] for row in (pair, stick, ball, z, half, r, rise))
+    x, y, off, slope, tilted, length = (row[near] for row in (x, y, off, slope, tilted, length))
     low, high = z - half <= 0.0, z + half >= 1.0
     if not (low | high).all():
         return None
@@ -177,19 +191,23 @@ def _rods(bodies: QuadricBodies, sphere: Bools, one: Ints, other: Ints, toleranc
     sign = np.where(high, -1.0, 1.0)
     rim = z + sign * half
     axis = sign * bodies.frame[2][:, stick] / bodies.sizes[2, stick]
-    height = dot(axis, bodies.centre[:, stick] + rim * bodies.frame[2][:, stick])
-    in_front = _eye_side(bodies.eye, axis, height) > 0.0
+    # Through that point of the axis, a plane that leans away from the middle of the ball.
+    inwards = (x * bodies.frame[0][:, stick] + y * bodies.frame[1][:, stick]) / np.maximum(off, LEAST_DIVISOR)
+    normal = np.where(tilted, (axis - slope * inwards) / np.sqrt(1.0 + slope * slope), axis)
+    height = dot(normal, bodies.centre[:, stick] + rim * bodies.frame[2][:, stick])
+    in_front = _eye_side(bodies.eye, normal, height) > 0.0
     outside, painted = bodies.ends.copy(), bodies.ends.copy()
-    under = np.where(in_front, rim, rim - UNDER * sign * half)
+    under = np.where(in_front, rim - sign * slope * r / length, rim - UNDER * sign * half)
     for ends, place in ((outside, rim), (painted, under)):
         np.maximum.at(ends[0], stick[low], place[low])
         np.minimum.at(ends[1], stick[high], place[high])
     inside |= outside[0] >= outside[1]
     capped = bodies.capped & (outside == bodies.ends)
-    cuts = BodyCuts(ball, axis, height, r).take(~in_front & ~inside[stick])
+    cuts = BodyCuts(ball, normal, height, r).take(~in_front & ~inside[stick])
+    own = BodyCuts(stick, -normal, -height, r).take(in_front & tilted & ~inside[stick])
     demands = np.stack([np.where(in_front, ball, stick), np.where(in_front, stick, ball)])
     outer, shown = (replace(bodies, ends=ends, capped=capped) for ends in (outside, painted))
-    return _Sticking(demands, cuts, outer, shown, done, inside)
+    return _Sticking(demands, joined([cuts, own]), outer, shown, done, inside)
 
 
 # Convex things with a plane between them.

@@ -89,8 +89,9 @@ class Clearance:
         least = np.full(len(body), np.inf)
         for end in (0, 1):
             part = self._part(float(end) - start[2], way[2])
-            there = np.hypot(*(start[:2] + part * way[:2])) - bodies.radii[end, body]
-            least = np.minimum(least, np.where(np.isfinite(part), there * size, np.inf))
+            met = np.isfinite(part)
+            there = np.hypot(*(start[:2] + np.where(met, part, 0.0) * way[:2])) - bodies.radii[end, body]
+            least = np.minimum(least, np.where(met, there * size, np.inf))
         # The light in the coordinates of the unit body, homogeneous.
         source, one = (way, 0.0) if self.light.parallel else (start + way, 1.0)
         across = np.maximum(np.hypot(source[0], source[1]), LEAST_DIVISOR)
