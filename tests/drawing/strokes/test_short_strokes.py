@@ -93,8 +93,8 @@ def test_over_items_that_one_pen_draws_strokes_are_joined_first():
 def test_no_line_or_hatch_of_a_drawing_is_shorter_and_letters_and_dashes_stay(layers):
     how = {"layers": layers, "hatch": vp.Hatching("tone", 0.6), "hidden": "dashed", "title": "i: ."}
     reports = []
-    given = [vp.draw("data/table.scene", **how, shortest_mm=short) for short in (0.0, None)]
-    some = vp.draw("data/table.scene", **how, shortest_mm=2.0, explain=reports.append)
+    given = [vp.draw("data/mirror.scene", **how, shortest_mm=short) for short in (0.0, None)]
+    some = vp.draw("data/mirror.scene", **how, shortest_mm=2.0, explain=reports.append)
     assert stroke_count(given[1].layers) < stroke_count(given[0].layers)
     (told,) = (report for report in reports if report.name == "short strokes")
     assert told.count > 50 and stroke_count(some.layers) < stroke_count(given[1].layers)
@@ -106,7 +106,7 @@ def test_no_line_or_hatch_of_a_drawing_is_shorter_and_letters_and_dashes_stay(la
 
 
 def test_explain_tells_how_many_specks_are_gone_and_nothing_where_there_are_none():
-    for scene, count in (("table", [4]), ("house", [])):
+    for scene, count in (("mirror", [8]), ("house", [])):
         reports = []
         vp.draw(f"data/{scene}.scene", hatch=vp.Hatching("tone", 0.7), explain=reports.append)
         assert [report.count for report in reports if report.name == "specks"] == count
