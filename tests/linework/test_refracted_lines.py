@@ -174,6 +174,21 @@ def test_at_any_size_and_place_water_bends_alike(camera):
 
 
 @pytest.mark.slow
+def test_what_pierces_each_other_in_water_does_so_a_million_units_off():
+    post = vp.Item("POST", box((-0.7, -1.0, -2.5), (-0.2, 1.0, 1.0)))
+    shown, there = [], basin(vp.Item("BALL", Sphere(0.8)).moved(0.2, 0.1, -0.5), post)
+    for shift in (0.0, 1e6):
+        moved = replace(there, items=tuple(item.moved(shift, shift, shift) for item in there.items))
+        eye, target = (tuple((np.array(one) + shift).tolist()) for one in (PERSPECTIVE.eye, PERSPECTIVE.target))
+        told = {"lines": "intersection", "tolerance_mm": 0.1, "page": SQUARE, "curves": "polyline"}
+        drawing = vp.draw(moved, replace(PERSPECTIVE, eye=eye, target=target), **told)
+        strokes, items = strokes_of(drawing, "refracted")
+        shown.append(strokes[items == 1])
+    assert len(shown[0]) > 10
+    assert max(nearest(one, other.reshape(-1, 2)).max() for one, other in (shown, shown[::-1])) < 1e-3
+
+
+@pytest.mark.slow
 @pytest.mark.parametrize("camera", [CAMERA, PERSPECTIVE], ids=["parallel", "perspective"])
 @pytest.mark.parametrize("low", [(-1.0, 2.0, 0.0), (-1.0, -0.5, 0.2)], ids=["behind", "within"])
 def test_what_is_in_glass_behind_glass_is_seen_once(camera, low):
@@ -207,7 +222,8 @@ def test_what_stands_in_the_floor_of_a_pool_ends_there_with_a_line(parallel):
     water = vp.Item("WATER", box((-2, -2, 0), (2, 2, 1)), material=vp.Material("transparent", refraction=1.333))
     floor, stone = vp.Item("FLOOR", box((-2, -2, -0.2), (2, 2, 0))), vp.Item("STONE", Sphere(1.0)).moved(0, 0, -0.6)
     camera = vp.Camera((0, 0, 9), (0, 0, 0), parallel=parallel)
-    drawing = vp.draw(vp.Scene((water, floor, stone)), camera, curves="polyline")
+    # No border is asked for: that is where two things meet.
+    drawing = vp.draw(vp.Scene((water, floor, stone)), camera, lines="contour,intersection", curves="polyline")
     strokes, items = strokes_of(drawing, "refracted")
     ends = strokes[items == 2] - 0.5 * np.array([drawing.width_mm, drawing.height_mm])
     radius = np.linalg.norm(ends, axis=2)

@@ -10,10 +10,12 @@ import pytest
 
 import vectorplot as vp
 from vectorplot.curves import Circle, Loxodrome
+from vectorplot.geometry.mesh_cuts import HalfSpaces
 from vectorplot.surfaces import Domain, PlacedSurface, Torus, surface_of_function
+from vectorplot.surfaces.placed_surface import placed_once
 from vectorplot.surfaces.surface import Surface
 from vectorplot.surfaces.swept import Rotoid, Screw, Swept
-from vectorplot.surfaces.trimmed import covered_once
+from vectorplot.surfaces.trimmed import CutSurface, covered_once, uncut
 
 RIGHT_ANGLE, TURN = np.pi / 2.0, 2.0 * np.pi
 
@@ -99,3 +101,20 @@ def test_what_covers_itself_is_drawn_as_what_does_not(rounds: tuple[float, float
 def test_domains_may_end_at_whole_numbers() -> None:
     hill = surface_of_function(lambda u, v: (u, v, np.exp(-u * u - v * v)), Domain(-2, 2, -2, 2))
     assert covered_once(hill) is hill
+
+
+@pytest.mark.parametrize("turn", [np.eye(3), np.array([[0.0, 2.0, 0.0], [-2.0, 0.0, 0.0], [0.0, 0.0, 2.0]])])
+def test_what_is_cut_far_from_the_origin_keeps_all_digits_where_it_is_looked_at(turn):
+    far, normal = np.array([1e6, -1e6, 1e6]), (0.6, 0.0, 0.8)
+    u, v = np.linspace(0.1, 6.1, 40), np.linspace(0.2, 6.0, 40)
+    points = []
+    for shift in (np.zeros(3), far):
+        gone = HalfSpaces((normal,), (float(np.dot(normal, shift)) + 0.5,))
+        cut = CutSurface(PlacedSurface(Torus(2.0, 0.7), turn, shift), (gone,))
+        placed = placed_once(cut, np.eye(3), np.zeros(3), shift)
+        points.append((placed.points(u, v), uncut(placed).points(u, v)))
+    (near, whole), (there, all_of_it) = points
+    assert 5 < np.isnan(near[:, 0]).sum() < 35
+    assert (np.isnan(there) == np.isnan(near)).all()
+    assert np.abs(all_of_it - whole).max() < 1e-14
+    assert np.nanmax(np.abs(there - near)) < 1e-14

@@ -48,11 +48,12 @@ from vectorplot.pictures.reflected_lines import (
     with_more,
 )
 from vectorplot.scene.added_lines import default_light
+from vectorplot.scene.item import Item
 from vectorplot.scene.scene import Scene
-from vectorplot.scene.view import View
+from vectorplot.scene.view import View, pools
 from vectorplot.tolerances import CUT_EDGE_OF_EXTENT, EDGE_ON_SINE
 from vectorplot.visibility.polyhedra.hidden_lines import Visibility
-from vectorplot.visibility.polyhedra.lines import Lines
+from vectorplot.visibility.polyhedra.lines import Lines, items_wanting, kinds_of
 from vectorplot.words import LineKind
 
 ALONG = np.array([0.0, 0.0, -1.0])
@@ -165,22 +166,50 @@ def _part(how: Depth, normals: Floats, points: Floats, tolerance: float) -> Scen
     return replace(how.scene, items=tuple(items))
 
 
-def _made_by_cuts(view: View, lines: Lines, how: Depth, normals: Floats, points: Floats) -> Bools:
-    """(n,) which lines are borders that items have only since they were cut at planes as of _part, but those on faces
-    of something opaque: there items meet."""
+def _with_borders(scene: Scene, kinds: frozenset[LineKind]) -> Scene:
+    """A scene of _part with borders looked for wherever intersections of these kinds are: an item cut at the face of
+    another one that it pierces only touches that, and meets it in its new border. See _left_out."""
+    items = list[Item]()
+    for item in scene.items:
+        own = kinds_of(item, kinds)
+        both = sorted(own | {LineKind.BOUNDARY}) if LineKind.INTERSECTION in own else []
+        items.append(replace(item, lines=tuple(kind.word for kind in both)) if both else item)
+    return replace(scene, items=tuple(items))
+
+
+def _left_out(
+    view: View, lines: Lines, how: Depth, kinds: frozenset[LineKind], normals: Floats, points: Floats
+) -> Bools:
+    """(n,) which lines of _with_borders are borders that nobody wants: those made by cuts, but for
+    intersections with faces of something opaque, and others where no borders are asked for."""
     ends = [view.world_of(side) for side in (lines.start, lines.end)]
     made, off = np.zeros(len(lines), dtype=np.bool_), CUT_EDGE_OF_EXTENT * view.scale
     for normal, point in zip(normals, points, strict=True):
         heights = matmul(how.corners - point, normal)
         crossed: Bools = np.any(heights > off, axis=1) & np.any(heights < -off, axis=1)
         made |= crossed[lines.item] & np.logical_and(*(np.abs(matmul(end - point, normal)) <= off for end in ends))
-    which = np.flatnonzero(made & (lines.kind == LineKind.BOUNDARY))
-    middle = 0.5 * (ends[0][which] + ends[1][which])
-    for number, item in enumerate(how.scene.items if len(which) else ()):
-        if isinstance(item.shape, Mesh) and item.material.opacity >= 1.0:
-            meets, _ = PlacedTriangles(item.mesh).faces_at(middle, off)
-            made[which[meets[lines.item[which[meets]] != number]]] = False
-    return np.asarray(made & (lines.kind == LineKind.BOUNDARY))
+    border = np.asarray(lines.kind == LineKind.BOUNDARY)
+    which = np.flatnonzero(made & border)
+    meet = np.zeros(len(lines), dtype=np.bool_)
+    meet[which] = _on_opaque(how, 0.5 * (ends[0][which] + ends[1][which]), lines.item[which], off)
+    asked, met = (
+        items_wanting(kind, how.scene, kinds)[lines.item] for kind in (LineKind.BOUNDARY, LineKind.INTERSECTION)
+    )
+    return border & ~np.where(made, meet & met, asked)
+
+
+def _on_opaque(how: Depth, points: Floats, item: Ints, off: float) -> Bools:
+    """(n,) which points (n,3) of items (n,) are no farther off than this from faces of other meshes that are opaque."""
+    found = np.zeros(len(points), dtype=np.bool_)
+    if not len(points):
+        return found
+    opaque = np.array([isinstance(one.shape, Mesh) and one.material.opacity >= 1.0 for one in how.scene.items])
+    low, high = how.corners.min(axis=1) - off, how.corners.max(axis=1) + off
+    near = np.flatnonzero(opaque & ((low <= points.max(axis=0)) & (high >= points.min(axis=0))).all(axis=1))
+    pool = pools(Scene(tuple(how.scene.items[k] for k in near.tolist())))
+    which, face = PlacedTriangles(Mesh(pool.points, pool.corners, pool.offsets)).faces_at(points, off)
+    found[which[near[pool.face_item[face]] != item[which]]] = True
+    return found
 
 
 @dataclass(frozen=True, eq=False)
@@ -242,9 +271,10 @@ def _inside(shapes: LineSources, fronts: Mirrors, number: int, item: int, how: D
     sides = mirrors_of(view, np.flatnonzero(view.face_item == item))
     inwards, points = matmul(view.axes.T, -sides.normal).T, view.world_of(sides.point)
     finer = replace(how, tolerance=how.tolerance * bend.finer)
-    sources, lines, seen = bend.seen(shapes, _part(how, inwards, points, view.tolerance * view.scale), finer)
-    made = _made_by_cuts(sources.view, lines, how, inwards, points)
-    seen = records.take(seen, ~made[seen.segment])
+    scene = _with_borders(_part(how, inwards, points, view.tolerance * view.scale), shapes.kinds)
+    sources, lines, seen = bend.seen(shapes, scene, finer)
+    gone = _left_out(sources.view, lines, how, shapes.kinds, inwards, points)
+    seen = records.take(seen, ~gone[seen.segment])
     backs = mirrors_of(sources.view, np.flatnonzero((sources.view.face_item == item) & (sources.faces.facing < 0)))
     backs = replace(backs, normal=-backs.normal)
     seen_through = _in_window(sources, backs, bend.window)
@@ -350,18 +380,18 @@ class _Glass:
 
     def _held(self) -> Things:
         """What there is in the solid."""
-        view, planes = self._view, self.solid.planes
+        view, planes, kinds = self._view, self.solid.planes, self.shapes.kinds
         inwards, points = matmul(view.axes.T, -planes[:3]).T, view.world_of(planes[:3] * planes[3])
-        scene = _part(self.how, inwards, points, view.tolerance * view.scale)
+        scene = _with_borders(_part(self.how, inwards, points, view.tolerance * view.scale), kinds)
 
         def left_out(view: View, lines: Lines) -> Bools:
-            return _made_by_cuts(view, lines, self.how, inwards, points)
+            return _left_out(view, lines, self.how, kinds, inwards, points)
 
         return things_of(self.shapes, scene, self.how, FACETS, left_out)
 
     def _behind(self, faces: Bools) -> Things:
         """What there is behind some faces of the solid, all in one plane; what lies in that is in the solid too."""
-        view, plane = self._view, self.solid.planes[:, int(np.argmax(faces))]
+        view, plane, kinds = self._view, self.solid.planes[:, int(np.argmax(faces))], self.shapes.kinds
         outwards, base = matmul(view.axes.T, plane[:3])[None], view.world_of((plane[:3] * plane[3])[:, None])
         scene = _part(self.how, outwards, base, view.tolerance * view.scale)
         items = (nothing_of(one) if k == self.item else one for k, one in enumerate(scene.items))
@@ -369,7 +399,7 @@ class _Glass:
         def left_out(view: View, lines: Lines) -> Bools:
             low = np.maximum(*(matmul(plane[:3], side) - plane[3] for side in (lines.start, lines.end)))
             in_plane: Bools = np.asarray(low <= CUT_EDGE_OF_EXTENT)
-            return in_plane | _made_by_cuts(view, lines, self.how, outwards, base)
+            return in_plane | _left_out(view, lines, self.how, kinds, outwards, base)
 
         return things_of(self.shapes, replace(scene, items=tuple(items)), self.how, FACETS, left_out)
 

@@ -26,7 +26,7 @@ from vectorplot.surfaces.parameter_regions import (
     near_middle,
     parameter_region,
 )
-from vectorplot.surfaces.placed_surface import MovableSurface, PlacedSurface
+from vectorplot.surfaces.placed_surface import MovableSurface, PlacedSurface, placed_once
 from vectorplot.surfaces.surface import Domain, OverDomain, Surface
 from vectorplot.tolerances import ROUNDING, ZERO_OF_EXTENT
 
@@ -217,6 +217,24 @@ class CutSurface(MovableSurface):
     def domain(self) -> Domain:
         """That of the surface."""
         return self.surface.domain
+
+    @property
+    def place(self) -> Floats:
+        """(3,) where the surface stands that is cut."""
+        return np.asarray(self._placed.shift)
+
+    def about_origin(self) -> CutSurface:
+        """The same, moved with its cuts so that the surface stands in the origin: see Centred."""
+        back = np.eye(4)
+        back[:3, 3] = -self.place
+        within = None if self.within is None else self.within.transformed(back)
+        surface = replace(self._placed, shift=np.zeros(3))
+        return CutSurface(surface, tuple(region.transformed(back) for region in self.regions), within)
+
+    @cached_property
+    def _placed(self) -> PlacedSurface:
+        """What is cut, in a single placement."""
+        return placed_once(self.surface, np.eye(3), np.zeros(3), np.zeros(3))
 
     def points(self, u: Floats, v: Floats) -> Floats:
         """(..., 3) points; NaN where the surface is cut away."""
