@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,6 +14,7 @@ from vectorplot.geometry.algebra import symmetric_eigen
 from vectorplot.geometry.boxes import PAIRS_AT_ONCE, overlapping_boxes
 from vectorplot.geometry.budget import in_turn, may_stop
 from vectorplot.geometry.elementary import arccos
+from vectorplot.geometry.predicates import orient3d
 from vectorplot.geometry.vectors import all_components, any_component, component_sum, cross, norm
 from vectorplot.geometry.weld import close_points
 from vectorplot.tolerances import (
@@ -32,6 +34,13 @@ Pair = tuple[Ints, Ints]
 
 APART_ROUNDING = 4.0 * ULP
 """What rounding may add to coordinates that are moved apart, in parts of how far they are."""
+
+SIGN_OF_VOLUME = 2.0 * ROUNDING
+"""Below this part of the product of its arms the sign of a volume may be one of rounding."""
+
+ASIDE = np.array([0.5377, 0.7193, 0.4401])
+"""Where corners and edges lie in the planes of others, the first of two tessellations counts as moved this way, by less
+than anything else: along no axis, and along no diagonal between axes."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -126,14 +135,14 @@ def overlapping_of_each(low: list[Floats], high: list[Floats], numbers: list[Int
 def piercings(one: Tessellation, two: Tessellation, pairs: Pair) -> Piercings:
     """The segments in which pairs of triangles meet, joined where an edge of one pierces a triangle of the other. Every
     sign is one determinant with the ends of an edge in one order, so both triangles at the edge agree and segments
-    fit; what lies on a plane or line counts as above. Edge cases: coplanar triangles do not meet.
-    Source: Glaeser, section 8.4; determinants of Guigue and Devillers (2003).
+    fit; it is exact, and where it is 0 that which it has with one moved a little (see ASIDE). Edge cases: coplanar
+    triangles do not meet. Source: Glaeser, section 8.4; determinants of Guigue and Devillers (2003); Edelsbrunner and
+    Muecke (1990) on ties.
     """
-    origin = one.points[one.triangles[:1, 0]].reshape(-1, 3)[:1] if len(one.triangles) else np.zeros((1, 3))
     tables = [_empty(one, two)]
     for start in in_turn(range(0, len(pairs[0]), PAIRS_AT_ONCE)):
         i, j = (p[start : start + PAIRS_AT_ONCE] for p in pairs)
-        tables.append(_meet(one, two, origin, i, j))
+        tables.append(_meet(one, two, i, j))
     key, place_one, place_two, triangles = (np.concatenate(column) for column in zip(*tables, strict=True))
     _, first, index = np.unique(key.ravel(), return_index=True, return_inverse=True)
     side, edge, twin = _unpacked(key.ravel()[first], one, two)
@@ -184,16 +193,18 @@ def _empty(one: Tessellation, two: Tessellation) -> Table:
     return none, np.zeros((0, one.places.shape[2])), np.zeros((0, two.places.shape[2])), none.reshape(0, 2)
 
 
-def _meet(one: Tessellation, two: Tessellation, origin: Floats, i: Ints, j: Ints) -> Table:
+def _meet(one: Tessellation, two: Tessellation, i: Ints, j: Ints) -> Table:
     """Keys, places and triangles of the ends of the segments in which triangles i of one and j of the other meet."""
-    a, b = one.points[one.triangles[i]] - origin, two.points[two.triangles[j]] - origin
-    above_b = _volumes(b[:, 0], b[:, 1], b[:, 2], a)
+    a, b = one.points[one.triangles[i]], two.points[two.triangles[j]]
+    # Of one tessellation both orders of two triangles have to agree.
+    aside = ASIDE * (one is not two)
+    above_b = _volumes(b[:, 0], b[:, 1], b[:, 2], a, aside)
     mixed = np.flatnonzero(_differ(above_b >= 0.0))
     i, j, a, b, above_b = i[mixed], j[mixed], a[mixed], b[mixed], above_b[mixed]
-    above_a = _volumes(a[:, 0], a[:, 1], a[:, 2], b)
+    above_a = _volumes(a[:, 0], a[:, 1], a[:, 2], b, -aside)
     mixed = np.flatnonzero(_differ(above_a >= 0.0))
     i, j, a, b, above_b, above_a = i[mixed], j[mixed], a[mixed], b[mixed], above_b[mixed], above_a[mixed]
-    past = _past_edges(one.triangles[i], two.triangles[j], a, b)
+    past = _past_edges(one.triangles[i], two.triangles[j], a, b, aside)
     up = _is_up(past, one.triangles[i], two.triangles[j])
     # Edge k of a pierces b where its ends differ and it passes all edges of b on the same side.
     through_b = (above_b >= 0.0) != (np.roll(above_b, -1, axis=1) >= 0.0)
@@ -217,23 +228,46 @@ def _meet(one: Tessellation, two: Tessellation, origin: Floats, i: Ints, j: Ints
     return key, place_a, place_b, np.stack([i[pair], j[pair]], axis=1)
 
 
-def _volumes(a: Floats, b: Floats, c: Floats, points: Floats) -> Floats:
-    """(k,3) six times the volumes of the tetrahedra of triangles a, b, c (k,3) and each of points (k,3,3)."""
-    normal = cross(b - a, c - a)
-    return np.asarray(component_sum((points - a[:, None]) * normal[:, None]))
+def _volumes(a: Floats, b: Floats, c: Floats, points: Floats, aside: Floats) -> Floats:
+    """(k,3) six times the volumes of the tetrahedra of triangles a, b, c (k,3) and each of points (k,3,3), which are
+    moved aside."""
+    u, v, arm = b - a, c - a, points - a[:, None]
+    normal = cross(u, v)
+    volumes = np.asarray(component_sum(arm * normal[:, None]))
+    corners = (*(np.broadcast_to(corner[:, None], points.shape) for corner in (a, b, c)), points)
+    return _with_signs(volumes, (u[:, None], v[:, None], arm), corners, component_sum(normal * aside)[:, None])
+
+
+def _with_signs(volumes: Floats, arms: Sequence[Floats], corners: Sequence[Floats], moved: Floats) -> Floats:
+    """Volumes (...) with the signs that exact arithmetic tells: by rounding, an edge in the plane of a triangle would
+    pass all of its neighbours. arms, corners (...,3): of the tetrahedra; moved (...): how volumes that are 0 change."""
+    with np.errstate(all="ignore"):
+        size = np.abs(arms[0]).max(axis=-1) * np.abs(arms[1]).max(axis=-1) * np.abs(arms[2]).max(axis=-1)
+        doubtful = np.abs(volumes) <= SIGN_OF_VOLUME * size
+    if not doubtful.any():
+        return volumes
+    signs = orient3d(*(corner[doubtful] for corner in corners))
+    signs = np.where(signs == 0, np.sign(np.broadcast_to(moved, volumes.shape)[doubtful]), signs)
+    result = volumes.copy()
+    result[doubtful] = signs * np.maximum(np.abs(volumes[doubtful]), np.finfo(np.float64).tiny)
+    return result
 
 
 def _differ(up: Bools) -> Bools:
     return np.asarray(up.any(axis=1) & ~up.all(axis=1))
 
 
-def _past_edges(of_a: Ints, of_b: Ints, a: Floats, b: Floats) -> Floats:
-    """(k,3,3) volumes of the tetrahedra of edge m of a and edge n of b, their ends in ascending order of points."""
+def _past_edges(of_a: Ints, of_b: Ints, a: Floats, b: Floats, aside: Floats) -> Floats:
+    """(k,3,3) volumes of the tetrahedra of edge m of a, moved aside, and edge n of b, their ends in ascending order of
+    points."""
     low_a, high_a = _ends(of_a, a)
     low_b, high_b = _ends(of_b, b)
-    along_a, along_b = high_a - low_a, high_b - low_b
-    arm = low_b[:, None] - low_a[:, :, None]
-    return np.asarray((cross(along_a[:, :, None], along_b[:, None]) * arm).sum(axis=3))
+    along_a, along_b = (high_a - low_a)[:, :, None], (high_b - low_b)[:, None]
+    arm, normal = low_b[:, None] - low_a[:, :, None], cross(along_a, along_b)
+    volumes = np.asarray((normal * arm).sum(axis=3))
+    ends = (low_a[:, :, None], high_a[:, :, None], high_b[:, None], low_b[:, None])
+    corners = [np.broadcast_to(end, arm.shape) for end in ends]
+    return _with_signs(volumes, (along_a, along_b, arm), corners, -component_sum(normal * aside))
 
 
 def _ends(numbers: Ints, corners: Floats) -> tuple[Floats, Floats]:

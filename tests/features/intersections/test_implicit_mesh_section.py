@@ -10,6 +10,7 @@ from vectorplot.features.implicit_curves import ImplicitTracing
 from vectorplot.features.intersections import ImplicitPatch, implicit_mesh_section, mesh_section
 from vectorplot.features.polygonization import polygonized
 from vectorplot.geometry.mesh import Mesh
+from vectorplot.io.scene_language import parse_scene
 from vectorplot.surfaces.placed_surface import PlacedImplicit
 from vectorplot.surfaces.quadrics import Quadric, Sphere, implicit_sphere
 from vectorplot.surfaces.tori import ImplicitTorus, Torus
@@ -136,3 +137,16 @@ def test_a_mesh_and_a_surface_far_from_each_other_have_no_curve() -> None:
     assert len(curves(implicit_sphere(1.0, (9.0, 9.0, 9.0)), CUBE)) == 0
     empty = Mesh.from_triangles(np.zeros((0, 3)), np.zeros((0, 3)))
     assert len(curves(implicit_sphere(1.0), empty)) == 0
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("off", [0.0, 0.3, 10.0, 1e6])
+def test_a_face_in_a_plane_of_the_lattice_cuts_curves_without_a_gap(off):
+    ring = 'surface implicit "(x^2+y^2+z^2+3)^2-16*(x^2+y^2)" box -3.1 3.1 -3.1 3.1 -1.1 1.1'
+    # Three sides in planes in which the lattice has points, the fourth beside them.
+    for size, place in (("1 1 3", (1.5, 0.0, -1.5)), ("2 2 3", (0.0, 0.0, -1.5)), ("3.1 1 3", (0.0, -1.0, -1.5))):
+        there = " ".join(repr(off + x) for x in place)
+        scene = parse_scene(f"A {ring} translation {off} {off} {off}\nB box {size} translation {there}")
+        shape, box = (item.shape for item in scene.items)
+        found = implicit_mesh_section(shape, box).curves
+        assert len(found) > 0 and found.closed.all() and not found.doubts
