@@ -249,7 +249,7 @@ def _with_signs(volumes: Floats, arms: Sequence[Floats], corners: Sequence[Float
     signs = orient3d(*(corner[doubtful] for corner in corners))
     signs = np.where(signs == 0, np.sign(np.broadcast_to(moved, volumes.shape)[doubtful]), signs)
     result = volumes.copy()
-    result[doubtful] = signs * np.maximum(np.abs(volumes[doubtful]), np.finfo(np.float64).tiny)
+    result[doubtful] = signs * np.maximum(np.abs(volumes[doubtful]), LEAST_DIVISOR)
     return result
 
 
