@@ -39,8 +39,9 @@ SIGN_OF_VOLUME = 2.0 * ROUNDING
 """Below this part of the product of its arms the sign of a volume may be one of rounding."""
 
 ASIDE = np.array([0.5377, 0.7193, 0.4401])
-"""Where corners and edges lie in the planes of others, the first of two tessellations counts as moved this way, by less
-than anything else: along no axis, and along no diagonal between axes."""
+"""The direction in which the first of two tessellations counts as moved, by less than any distance between them, where
+its corners lie in planes of the other or its edges meet edges of the other: along no axis and no diagonal, in whose
+planes faces often lie."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -135,9 +136,9 @@ def overlapping_of_each(low: list[Floats], high: list[Floats], numbers: list[Int
 def piercings(one: Tessellation, two: Tessellation, pairs: Pair) -> Piercings:
     """The segments in which pairs of triangles meet, joined where an edge of one pierces a triangle of the other. Every
     sign is one determinant with the ends of an edge in one order, so both triangles at the edge agree and segments
-    fit; it is exact, and where it is 0 that which it has with one moved a little (see ASIDE). Edge cases: coplanar
-    triangles do not meet. Source: Glaeser, section 8.4; determinants of Guigue and Devillers (2003); Edelsbrunner and
-    Muecke (1990) on ties.
+    fit. Signs are exact; a determinant that is 0 has the sign that it gets when one is moved a little (see ASIDE), and
+    counts as positive between triangles of one tessellation. Edge cases: coplanar triangles do not meet.
+    Source: Glaeser, section 8.4; determinants of Guigue and Devillers (2003); ties as Edelsbrunner and Mücke (1990).
     """
     tables = [_empty(one, two)]
     for start in in_turn(range(0, len(pairs[0]), PAIRS_AT_ONCE)):

@@ -143,7 +143,7 @@ def test_a_mesh_and_a_surface_far_from_each_other_have_no_curve() -> None:
 @pytest.mark.parametrize("off", [0.0, 0.3, 10.0, 1e6])
 def test_a_face_in_a_plane_of_the_lattice_cuts_curves_without_a_gap(off):
     ring = 'surface implicit "(x^2+y^2+z^2+3)^2-16*(x^2+y^2)" box -3.1 3.1 -3.1 3.1 -1.1 1.1'
-    # Three sides in planes in which the lattice has points, the fourth beside them.
+    # The lattice has points in the planes x = 0 and y = 0, in which one, two, and two sides of the boxes lie.
     for size, place in (("1 1 3", (1.5, 0.0, -1.5)), ("2 2 3", (0.0, 0.0, -1.5)), ("3.1 1 3", (0.0, -1.0, -1.5))):
         there = " ".join(repr(off + x) for x in place)
         scene = parse_scene(f"A {ring} translation {off} {off} {off}\nB box {size} translation {there}")
